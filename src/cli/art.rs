@@ -11,7 +11,7 @@ use voromill::gcode;
 use voromill::geometry::{Nm, Polygon};
 use voromill::import::drawing::Unit;
 use voromill::import::{self, Loaded, Shapes, diagnostic, load_copper, picture, text::text};
-use voromill::job::{self, Art, Length, OneTool, Settings};
+use voromill::job::{self, Art, Length, OneTool, Reach, Settings};
 use voromill::report;
 use voromill::report::document::{Figures, ProgramEntry, SCHEMA_VERSION, WarningEntry};
 use voromill::report::stages::{Stage, Stages};
@@ -80,6 +80,9 @@ pub(super) trait Milled {
     /// What comparing them with the shapes comes to.
     type Judged;
 
+    /// The options that mean something to them.
+    const REACH: Reach;
+
     /// A program for each tool, in the order in which they run.
     fn programs(&self) -> &[OneTool];
 
@@ -145,7 +148,7 @@ impl Work {
             refuse_kind(picture, "name the picture .png")?;
         }
         let input = self.input();
-        let settings = self.config.settings(&input, shared)?;
+        let settings = self.config.for_artwork(&input, M::REACH, shared)?;
         let progress = Progress::start(shared);
         let mut stages = Stages::default();
         progress.say("reading");
@@ -447,7 +450,7 @@ fn stale(output: &Path, programs: &[OneTool]) -> Option<Warning> {
         ["", "flat"].map(str::to_owned).into_iter().chain((1..=MOST_TOOLS).map(|number| number.to_string()));
     let others = tags.map(|tag| tagged(output, &tag)).filter(|path| !ours.contains(path) && path.is_file());
     let names: Vec<String> = others.map(|path| name_of(&path)).collect();
-    let message = format!("{} was not written by this run: do not mill it with these", names.join(", "));
+    let message = format!("not written by this run: {}; do not mill it with these", names.join(", "));
     (!names.is_empty()).then(|| planning::STALE_OUTPUT.warning(message))
 }
 

@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 use voromill::board::Warning;
 use voromill::geometry::Nm;
-use voromill::job::{self, Carving, Engraving, Inlay, Length, OneTool, ToolChoice, carve};
+use voromill::job::{self, Carving, Engraving, Inlay, Length, OneTool, Reach, ToolChoice, carve};
 use voromill::report::stages::Stages;
 use voromill::toolpath::{Angle, Tool};
 use voromill::verify::Finding;
@@ -126,6 +126,8 @@ impl Carve {
 
 impl Milled for Engraving {
     type Judged = Carved;
+
+    const REACH: Reach = Reach::CARVING;
 
     fn programs(&self) -> &[OneTool] {
         &self.programs

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use voromill::board::Board;
-use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Settings, Workbench};
+use voromill::job::{Error, FILE_NAME, Length, MillProject, Options, Reach, Settings, Workbench};
 
 use super::given::{Given, flag};
 use super::input::Input;
@@ -25,16 +25,32 @@ impl Config {
     /// The settings for a job: the command line's, then a millproject's, then the file's, which is
     /// named if nobody has named it.
     pub(super) fn settings(&self, input: &Input, shared: Shared) -> Result<Settings, Failure> {
-        if let Some(found) = Self::unnamed(self.config.as_deref(), &input.paths()) {
-            shared.say(&format!("settings: {}\n", found.display()));
-        }
-        self.resolved(input, Options::default())
+        self.name_file(input, shared);
+        self.resolved(input, Settings::resolve)
+    }
+
+    /// The same where shapes are milled, and options count that change any of `reach`.
+    pub(super) fn for_artwork(
+        &self,
+        input: &Input,
+        reach: Reach,
+        shared: Shared,
+    ) -> Result<Settings, Failure> {
+        self.name_file(input, shared);
+        self.resolved(input, |options| Settings::for_artwork(options, reach))
     }
 
     /// The settings for `board`, where nothing else says how thick it is.
     pub(super) fn settings_for(&self, input: &Input, board: &Board) -> Result<Settings, Failure> {
-        let thickness = board.thickness.map(Length);
-        self.resolved(input, Options { thickness, ..Options::default() })
+        let of_board = Options { thickness: board.thickness.map(Length), ..Options::default() };
+        self.resolved(input, |options| Settings::resolve(options.or(of_board)))
+    }
+
+    /// Says which settings file was found where none was named.
+    fn name_file(&self, input: &Input, shared: Shared) {
+        if let Some(found) = Self::unnamed(self.config.as_deref(), &input.paths()) {
+            shared.say(&format!("settings: {}\n", found.display()));
+        }
     }
 
     /// Fails for an option given here that the paper's program does not know.
@@ -51,12 +67,15 @@ impl Config {
         Ok(Workbench::new(self.given.0.clone().or(from_file))?)
     }
 
-    fn resolved(&self, input: &Input, of_board: Options) -> Result<Settings, Failure> {
+    fn resolved(
+        &self,
+        input: &Input,
+        resolve: impl FnOnce(Options) -> Result<Settings, Error>,
+    ) -> Result<Settings, Failure> {
         let from_file = Self::found(self.config.as_deref(), &input.paths())?;
         let project = input.project()?;
         let given = self.given.0.clone().or(project.options.clone()).or(from_file);
-        let settings = Settings::resolve(given.or(of_board));
-        let settings = settings.map_err(|error| self.explain(error, &project))?;
+        let settings = resolve(given).map_err(|error| self.explain(error, &project))?;
         self.judge(&settings)?;
         Ok(settings)
     }

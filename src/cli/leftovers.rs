@@ -80,7 +80,7 @@ impl Leftovers {
         if !self.changed.is_empty() {
             let names = named(&self.changed);
             let message =
-                format!("{names} in {folder} is from an earlier run and was changed since: it is kept");
+                format!("{folder} keeps what an earlier run wrote and somebody changed since: {names}");
             warnings.push(planning::STALE_OUTPUT.warning(message));
         }
         if !self.others.is_empty() {

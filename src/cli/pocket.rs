@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 use voromill::board::Warning;
 use voromill::geometry::Nm;
-use voromill::job::{self, Length, OneTool, Overlap, Pocketing};
+use voromill::job::{self, Length, OneTool, Overlap, Pocketing, Reach};
 use voromill::report::stages::Stages;
 use voromill::toolpath::Angle;
 use voromill::toolpath::strategy::{Engagement, Engaging, Sequence};
@@ -146,6 +146,8 @@ impl Pocket {
 
 impl Milled for job::Pocket {
     type Judged = Pocketed;
+
+    const REACH: Reach = Reach::POCKETS;
 
     fn programs(&self) -> &[OneTool] {
         &self.programs

@@ -17,7 +17,7 @@ use voromill::report::stages::Stages;
 use voromill::report::verdict::FindingEntry;
 use voromill::toolpath::Angle;
 use voromill::topology::Pattern;
-use voromill::verify::{self, Asked, Cutter, Orientation, Placement, Program, Role, Severity};
+use voromill::verify::{self, Asked, Cutter, Laid, Orientation, Placement, Program, Role, Severity};
 
 use super::given::of_word;
 use super::program_files::{programs, without_programs};
@@ -182,10 +182,13 @@ enum Format {
     Junit,
 }
 
-/// A text as its bytes: where they are not UTF-8, each is a character, as controllers take it.
-fn text_of(bytes: Vec<u8>) -> String {
-    String::from_utf8(bytes)
-        .unwrap_or_else(|error| error.as_bytes().iter().copied().map(char::from).collect())
+/// A text: where its bytes are not UTF-8, each is a character, as controllers take it; and whether
+/// it is so.
+fn text_of(bytes: Vec<u8>) -> (String, bool) {
+    match String::from_utf8(bytes) {
+        Ok(text) => (text, false),
+        Err(error) => (error.as_bytes().iter().copied().map(char::from).collect(), true),
+    }
 }
 
 /// A part of something: from 0 to 1.
@@ -281,8 +284,8 @@ impl Verify {
         let Loaded { mut board, sources, .. } =
             stages.run("reading", || import::survey(&self.board, &selection), |_| [])?;
         let files = self.files()?;
-        let read = files.iter().map(|path| self.program(path)).collect::<Result<Vec<_>, _>>()?;
-        let is_probe = |program: &Program| verify::declared_probe(&program.text);
+        let read = files.iter().map(|path| self.program(path, &board)).collect::<Result<Vec<_>, _>>()?;
+        let is_probe = |program: &Program| verify::is_probe(&program.text);
         let (probes, mut programs): (Vec<Program>, Vec<Program>) = read.into_iter().partition(is_probe);
         for Program { file, .. } in &probes {
             shared.say(&format!("  {file}: it probes the surface, and mills nothing\n"));
@@ -474,7 +477,7 @@ impl Verify {
         }
     }
 
-    fn program(&self, path: &Path) -> Result<Program, Failure> {
+    fn program(&self, path: &Path, board: &Board) -> Result<Program, Failure> {
         let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
         let role = self.side.map(|purpose| match purpose {
             Purpose::Front => Role::Isolation(Side::Front),
@@ -483,18 +486,24 @@ impl Verify {
             Purpose::Cutout => Role::Cutout,
             Purpose::Alignment => Role::Alignment,
         });
-        let placed = self.offset.is_some() || self.mirror.is_some() || self.rotate.is_some();
-        let degrees = self.rotate.map_or(0.0, Angle::degrees);
-        let shift = self.offset.map_or(Vector::default(), |Offset(shift)| shift);
-        Ok(Program {
+        let given = Laid {
+            degrees: self.rotate.map(Angle::degrees),
+            shift: self.offset.map(|Offset(shift)| shift),
+            mirror: self.mirror,
+        };
+        let (text, is_bytes) = text_of(bytes);
+        let program = Program {
             // As it was given: editors and code hosts find the file by it.
             file: path.display().to_string(),
-            text: text_of(bytes),
+            text,
             role,
             cutter: self.tool,
-            placement: placed.then_some(Placement { degrees, shift, mirror: self.mirror }),
+            placement: None,
             asked: self.asked(),
             dialect: self.dialect.clone(),
-        })
+            is_bytes,
+        };
+        let placement = (given != Laid::default()).then(|| given.of(&program, board));
+        Ok(Program { placement, ..program })
     }
 }

@@ -557,15 +557,20 @@ pub(super) fn plain(text: &str) -> String {
 }
 
 /// `text` in lines of at most `room` characters, broken at blanks where there are any. ASCII only.
-fn wrap(text: &str, room: usize) -> Vec<&str> {
+///
+/// A line that goes on begins with `+`, and with a blank behind that where there was one: who reads
+/// the comments back puts them together.
+fn wrap(text: &str, room: usize) -> Vec<String> {
     let mut lines = Vec::new();
-    let mut rest = text;
-    while rest.len() > room {
-        let at = rest[..=room].rfind(' ').filter(|&at| at > 0).unwrap_or(room);
+    let (mut mark, mut rest) = ("", text);
+    while mark.len() + rest.len() > room {
+        let own = room - mark.len();
+        let at = rest[..=own].rfind(' ').filter(|&at| at > 0).unwrap_or(own);
         let (line, after) = rest.split_at(at);
-        lines.push(line);
+        lines.push(format!("{mark}{line}"));
         rest = after.trim_start_matches(' ');
+        mark = if after.starts_with(' ') { "+ " } else { "+" };
     }
-    lines.push(rest.trim_end());
+    lines.push(format!("{mark}{}", rest.trim_end()));
     lines
 }

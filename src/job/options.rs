@@ -4,7 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::gcode::dialect::{Blend, ToolChange};
-use crate::toolpath::{Angle, Direction, Feed, Material};
+use crate::toolpath::{Angle, Direction, Feed, Material, ToolKind};
 use crate::topology::Pattern;
 
 use super::area_choice::AreaChoice;
@@ -88,6 +88,16 @@ macro_rules! structure {
                 Self { $($($name: self.$name.otherwise(others.$name),)+)+ tools }
             }
 
+            /// Those that change any of this, and one's own tools without the depths to which they
+            /// isolate.
+            pub(super) fn of_reach(self, reach: Reach) -> Self {
+                let mut changes = REACHES.iter().map(|changes| changes.meets(reach));
+                Self {
+                    $($($name: if changes.next() == Some(true) { self.$name } else { Default::default() },)+)+
+                    tools: self.tools.each(|tool| tool.depth = None),
+                }
+            }
+
             /// These, and the defaults where they leave something open.
             pub(super) fn complete(self) -> Complete {
                 let usual = Self::defaults();
@@ -148,12 +158,18 @@ impl Options {
             .collect()
     }
 
-    /// These tools; what the options say for every tool, no table says.
+    /// These tools; what the options say for every tool of a kind, no table says.
     fn yielding(&self, tools: Library) -> Library {
         tools.each(|tool| {
+            let (plunge, spindle) = match tool.kind {
+                ToolKind::Drill { .. } => (self.drill_plunge.is_some(), self.drill_spindle.is_some()),
+                ToolKind::VBit { .. } | ToolKind::EndMill { .. } => {
+                    (self.plunge.is_some(), self.spindle.is_some())
+                }
+            };
             tool.feed = tool.feed.filter(|_| self.feed.is_none());
-            tool.plunge = tool.plunge.filter(|_| self.plunge.is_none());
-            tool.spindle = tool.spindle.filter(|_| self.spindle.is_none());
+            tool.plunge = tool.plunge.filter(|_| !plunge);
+            tool.spindle = tool.spindle.filter(|_| !spindle);
             tool.depth = tool.depth.filter(|_| self.depth.is_none() && self.kerf.is_none());
         })
     }

@@ -15,7 +15,7 @@ use crate::topology::{self, Electrical};
 
 use super::ignore::ignore;
 use super::rivet::rivet;
-use super::stock::{Stock, zero};
+use super::stock::{Stock, is_flipped, zero};
 use super::{Error, Layer, Narrow, Part, Settings, Written, effect, numbering, room, tag};
 
 /// What made the outputs.
@@ -62,6 +62,10 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     {
         let warning = planning::RIVET_WITHOUT_HOLE.warning("no hole of the board is plated");
         warnings.push(warning.so(Words::of("{rivet} has no effect")));
+    }
+    if settings.alignment.is_some() && !is_flipped(&board, settings) {
+        let warning = planning::PINS_WITHOUT_FLIP.warning("nothing is milled with the back up");
+        warnings.push(warning.so(Words::of("{alignment-holes} has no effect")));
     }
     let bounds = board.bounds().ok_or_else(|| no_copper(settings))?;
     let stock = Stock::new(bounds, settings);

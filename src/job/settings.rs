@@ -19,6 +19,7 @@ use super::holding::{Holding, holding};
 use super::options::Complete;
 use super::output_name;
 use super::quantity::{Length, Tiles};
+use super::reach::Reach;
 use super::{controller, cutting_out, drilling, validate};
 
 /// Everything a job needs to know, complete and checked.
@@ -145,6 +146,21 @@ impl Settings {
     ///
     /// [`Error::Value`] for the first setting whose value is invalid.
     pub fn resolve(options: Options) -> Result<Self, Error> {
+        let settings = Self::of(options)?;
+        validate::kerfs(&settings.isolation)?;
+        Ok(settings)
+    }
+
+    /// The same of those options that change any of `reach`, where no board is milled.
+    ///
+    /// # Errors
+    ///
+    /// [`Error::Value`] for the first setting whose value is invalid.
+    pub fn for_artwork(options: Options, reach: Reach) -> Result<Self, Error> {
+        Self::of(options.of_reach(reach))
+    }
+
+    fn of(options: Options) -> Result<Self, Error> {
         let profile = options.machine.as_ref().map(|machine| machine.0.clone());
         let written = validate::defaults_for(profile.as_ref(), options).or(Options::defaults());
         let options = written.clone().complete();
@@ -172,7 +188,6 @@ impl Settings {
         }
         let machine = profile.map_or_else(Machine::default, |profile| profile.machine());
         let isolation = isolation(&options, &workshop, |cut| heights(cut, None))?;
-        validate::kerfs(&isolation)?;
         let through = thickness + positive("break-through", options.break_through)?;
         let drill_depth = given("drill-depth", options.drill_depth)?;
         let drill_safe = match options.drill_safe_z {
@@ -185,6 +200,10 @@ impl Settings {
             approach: APPROACH.min(drill_safe),
             ..heights(deep, checked::step("drill-peck", options.drill_peck, deep)?)
         };
+        // A tool's own table may say how deep it goes.
+        let deep: Vec<Nm> = isolation.iter().map(|cutting| cutting.heights.cut).collect();
+        let is_one = options.kerf.is_none() && deep.iter().all(|depth| *depth == deep[0]);
+        let depth = deep.first().filter(|_| is_one).copied().map(Length).or(written.depth);
         Ok(Self {
             frame_margin: frame_margin(&options, &isolation)?,
             adaptive_depth: validate::adaptive_depth(&options, &isolation)?,
@@ -207,7 +226,7 @@ impl Settings {
             drill_tip_angle: workshop.point,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: drilling::drill_tolerance(&options)?,
-            drill_bore: options.drill_bore || options.drill_bore_from.is_some(),
+            drill_bore: options.drill_bore,
             drill_bore_from: given("drill-bore-from", options.drill_bore_from)?,
             drill_bore_tool: match &options.drill_bore_tool {
                 Some(choice) => {
@@ -239,9 +258,10 @@ impl Settings {
             tab_width: positive("tab-width", options.tab_width)?,
             tab_top,
             couplings: false,
-            // Said though nobody gave them, so that programs tell how deep the cutout is and
-            // where all tiles lie.
+            // Said though nobody gave them, so that programs tell how deep cuts and the cutout are
+            // and where all tiles lie.
             options: Options {
+                depth,
                 cutout_depth: Some(Length(cutout_depth)),
                 tile_spacing: tiles.map(|(_, spacing)| Length(spacing)).or(options.tile_spacing),
                 ..written

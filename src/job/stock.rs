@@ -83,10 +83,7 @@ impl Stock {
     /// The program for the holes on whose pins the stock is flipped; none where none are asked
     /// for, or nothing is turned.
     pub(super) fn alignment(&self, board: &Board, settings: &Settings) -> Option<(Program, Vec<Warning>)> {
-        let drills_back = !board.holes.is_empty() && settings.drill_side == Side::Back;
-        let cuts_back = board.outline.is_some() && settings.cutout_side == Side::Back;
-        let turns = board.back.is_some() || drills_back || cuts_back;
-        let (diameter, margin) = settings.alignment.filter(|_| turns)?;
+        let (diameter, margin) = settings.alignment.filter(|_| is_flipped(board, settings))?;
         let holes = alignment_holes(self.bounds, self.axis, margin).map(|start| Hole {
             path: Path { start, segments: Vec::new() },
             diameter,
@@ -141,4 +138,11 @@ pub(super) fn zero(settings: &Settings, top_of: &str) -> String {
         format!(", less {x:.3} mm and {y:.3} mm")
     };
     format!("zero: x y {place}{moved}, z the top of the {top_of}")
+}
+
+/// Whether anything of a board is milled with its back up.
+pub(super) fn is_flipped(board: &Board, settings: &Settings) -> bool {
+    let drills_back = !board.holes.is_empty() && settings.drill_side == Side::Back;
+    let cuts_back = board.outline.is_some() && settings.cutout_side == Side::Back;
+    board.back.is_some() || drills_back || cuts_back
 }

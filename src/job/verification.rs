@@ -8,13 +8,15 @@ use crate::verify::{self, Cutter, CutterKind, Known, Placement, Program, Report,
 
 use super::art::cutter;
 use super::plain::method;
+use super::quantity::Tiles;
 use super::{Error, Job, Part, Settings, Written};
 
 impl Job {
     /// Mills its programs on a picture, from their texts, and says what is wrong with them.
     ///
     /// Of several tiles the first is judged: the others are the same moves elsewhere. That all of
-    /// them lie within the machine is asked of the whole programs.
+    /// them lie within the machine is asked of the whole programs. The holes for turning the stock
+    /// over lie beside all tiles, and are judged by all.
     ///
     /// The programs say for themselves what tools they are for; how the board lies is told, not
     /// found.
@@ -23,7 +25,7 @@ impl Job {
     ///
     /// [`Error::Verify`] where a program cannot be followed.
     pub fn verify(&self, settings: &Settings) -> Result<Report, Error> {
-        let programs = self.judged(settings, |_| true);
+        let programs = self.judged(settings, |written| !is_beside(written, settings));
         let tiled = self.tiled(&programs);
         let (judging, travel) = (judging(settings), settings.machine.travel);
         let judging = verify::Settings { travel: travel.filter(|_| tiled.is_empty()), ..judging };
@@ -32,7 +34,13 @@ impl Job {
         let layers = self.layers.iter().filter(|_| are_exact);
         let known: Vec<Known<'_>> =
             layers.map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
-        let report = verify(&programs, &self.board, &known, &judging)?;
+        let mut report = verify(&programs, &self.board, &known, &judging)?;
+        let beside = self.judged(settings, |written| is_beside(written, settings));
+        if let Some((Tiles { columns, rows }, spacing)) = settings.tiles.filter(|_| !beside.is_empty()) {
+            let tiles = Some(verify::Tiles { columns, rows, spacing });
+            let whole = verify::Settings { tiles, travel, ..judging };
+            report = report.joined(verify(&beside, &self.board, &[], &whole)?);
+        }
         Ok(match travel.filter(|_| !tiled.is_empty()) {
             Some(travel) => report.with(verify::overtravel(&tiled, travel)?),
             None => report,
@@ -59,7 +67,7 @@ impl Job {
         is_up: impl Fn(Side) -> bool,
         settings: &Settings,
     ) -> Result<Surface, Error> {
-        let programs = self.judged(settings, |written| is_up(written.side));
+        let programs = self.judged(settings, |written| is_up(written.side) && !is_beside(written, settings));
         Ok(Surface::of_board(&programs, &self.board, &judging(settings))?)
     }
 
@@ -67,9 +75,7 @@ impl Job {
     fn judged(&self, settings: &Settings, which: impl Fn(&Written) -> bool) -> Vec<Program> {
         let everything = settings.options().clear == Some(true);
         let asked = settings.clearing.drawn(everything, settings.tolerance);
-        // The holes for turning several tiles over lie beside all of them.
-        let is_beside = |written: &Written| written.part == Part::Alignment && settings.tiles.is_some();
-        let wanted = self.programs.iter().filter(|written| which(written) && !is_beside(written));
+        let wanted = self.programs.iter().filter(|written| which(written));
         let program = |written: &Written| Program {
             file: written.file_name(&self.board.name, settings),
             text: written.tile.as_ref().unwrap_or(&written.text).clone(),
@@ -78,6 +84,7 @@ impl Job {
             placement: Some(self.laid(written)),
             asked: asked.clone(),
             dialect: None,
+            is_bytes: false,
         };
         wanted.map(program).collect()
     }
@@ -89,6 +96,11 @@ impl Job {
         let degrees = rotation.degrees();
         Placement { degrees, shift, mirror }
     }
+}
+
+/// Whether a program is for all tiles together: the holes for turning them over lie beside them.
+fn is_beside(written: &Written, settings: &Settings) -> bool {
+    written.part == Part::Alignment && settings.tiles.is_some()
 }
 
 /// The tool of a program that has no comments to say which it is for; none where there are several.

@@ -5,10 +5,10 @@ use std::str::FromStr;
 
 use crate::board::Warning;
 use crate::board::diagnostic::planning;
-use crate::geometry::{Nm, ParseLengthError, nanometres};
+use crate::geometry::{Arc, Nm, ParseLengthError, nanometres};
 
 use super::feed::Feed;
-use super::program::{Move, Program};
+use super::program::{Move, Position, Program};
 
 /// How fast an axis comes up to speed, in whole micrometres per second squared; always positive.
 ///
@@ -161,9 +161,11 @@ impl Machine {
             let mut before = None;
             for step in &mut section.moves {
                 let to = step.to();
-                let is_vertical = before
-                    .zip(to)
-                    .is_some_and(|(a, b): (super::Position, super::Position)| a.point() == b.point());
+                let is_vertical =
+                    before.zip(to).is_some_and(|(a, b): (Position, Position)| a.point() == b.point());
+                // Down a slope z goes no faster than straight down, of which was told.
+                let down = before.map_or(0.0, |from| descent(from, step));
+                let slope = if down > 0.0 { z.times(1.0 / down) } else { level };
                 if let Move::Feed { feed, .. } | Move::Arc { feed, .. } = step {
                     let (most, way) = if is_vertical { (z, "down") } else { (level, "sideways") };
                     // Up it goes as fast as it can: nobody has asked for a speed.
@@ -173,13 +175,26 @@ impl Machine {
                             "{name} needs a feed of {feed} {way}, but the machine reaches {most}: that is used"
                         ));
                     }
-                    *feed = (*feed).min(most);
+                    *feed = (*feed).min(most).min(slope);
                 }
                 before = to.or(before);
             }
         }
         warnings
     }
+}
+
+/// How far a move goes down for each unit of its way; zero where it does not.
+fn descent(from: Position, step: &Move) -> f64 {
+    let along = match *step {
+        Move::Feed { to, .. } => from.point().distance(to.point()),
+        Move::Arc { to, center, turn, .. } => {
+            Arc { start: from.point(), end: to.point(), center, turn }.length()
+        }
+        Move::Rapid { .. } | Move::Dwell { .. } => return 0.0,
+    };
+    let down = step.to().map_or(0.0, |to| (from.z - to.z).to_f64().max(0.0));
+    if down > 0.0 { down / (along * along + down * down).sqrt() } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -113,6 +113,11 @@ pub(super) fn around(hole: &Hole) -> Vec<Point> {
     Wall::new(hole).points
 }
 
+/// How far a piece reaches past a hole's wall, in nanometres; below zero where it stays within.
+pub(super) fn past(hole: &Hole, shape: &Shape) -> f64 {
+    Wall::new(hole).past(shape)
+}
+
 impl<'a> Wall<'a> {
     fn new(hole: &'a Hole) -> Self {
         let path = hole.path.flatten(FLAT);

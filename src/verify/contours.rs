@@ -19,6 +19,7 @@ use crate::geometry::{Edges, Nm, Point, Polygon};
 use crate::topology::{Near, Proximity};
 
 use super::Settings;
+use super::bores::past;
 use super::cut::Cut;
 use super::machining::{Machining, Swept};
 
@@ -220,7 +221,7 @@ impl<'a> Contours<'a> {
     pub(super) fn last(&self) -> (Option<String>, Option<u32>) {
         let program = self.programs.last();
         let line = program.and_then(|program| program.swept.last()).map(|swept| swept.line);
-        (program.map(|program| program.file.clone()), line)
+        (program.map(|program| program.followed.file.clone()), line)
     }
 }
 
@@ -456,9 +457,10 @@ fn chords(axis: &Shape) -> Vec<Shape> {
 /// Whether a cut stays within a hole of the board: some cut large holes out.
 fn in_hole(swept: &Swept, holes: &[Hole], settings: &Settings) -> bool {
     let bounds = swept.shape.bounds();
-    let holds = |hole: &&Hole| {
+    let holds = |hole: &Hole| {
         let room = hole.bounds().inflate(settings.place);
-        room.contains(bounds.min()) && room.contains(bounds.max())
+        let may_hold = room.contains(bounds.min()) && room.contains(bounds.max());
+        may_hold && past(hole, &swept.shape) <= settings.place.to_f64()
     };
-    holes.iter().any(|hole| holds(&hole))
+    holes.iter().any(holds)
 }

@@ -2,7 +2,7 @@
 //! for, how the board lies. Of pcb2gcode's and FlatCAM's programs the tools alone.
 
 use crate::board::Side;
-use crate::gcode::read::lines;
+use crate::gcode::read::{Listing, Motion, Way, lines, read, without_own_code};
 use crate::geometry::{Nm, Vector};
 
 use super::{Cutter, Program, Role};
@@ -42,10 +42,8 @@ impl Declared {
     /// Reads the comments of `text`.
     pub(super) fn read(text: &str) -> Self {
         let mut declared = Self::default();
-        for (line, number) in lines(text).zip(1_u32..) {
-            for comment in comments(line) {
-                declared.comment(comment.trim(), number);
-            }
+        for (comment, line) in remarks(lines(text)) {
+            declared.comment(&comment, line);
         }
         declared
     }
@@ -124,9 +122,10 @@ impl Declared {
 /// digits for each byte.
 #[must_use]
 pub fn declared_setting(text: &str, setting: &str) -> Option<String> {
-    let value =
-        |comment: &str| Some(comment.trim().strip_prefix(setting)?.strip_prefix(' ')?.trim().to_owned());
-    let parts: Vec<String> = lines(text).take(HEADER).flat_map(comments).filter_map(value).collect();
+    let value = |(comment, _): (String, u32)| {
+        Some(comment.strip_prefix(setting)?.strip_prefix(' ')?.trim().to_owned())
+    };
+    let parts: Vec<String> = remarks(lines(text).take(HEADER)).into_iter().filter_map(value).collect();
     (!parts.is_empty()).then(|| unescaped(&parts.join(" ")))
 }
 
@@ -137,11 +136,15 @@ pub fn is_isolation(program: &Program) -> bool {
     matches!(role, Some(Role::Isolation(_)))
 }
 
-/// Whether a program says in its title that it probes the surface: it mills nothing.
+/// Whether a program says in its title that it probes the surface, and mills nothing.
 #[must_use]
-pub fn declared_probe(text: &str) -> bool {
-    let probes = |line| comments(line).iter().any(|title| title.trim().ends_with(" probe"));
-    lines(text).take(TITLE as usize).any(probes)
+pub fn is_probe(text: &str) -> bool {
+    let titles = remarks(lines(text).take(HEADER));
+    let mut titles = titles.iter().filter(|(_, line)| *line <= TITLE);
+    let sinks = |motion: &Motion| motion.way != Way::Rapid && motion.to.z.is_some_and(|z| z < Nm::ZERO);
+    let cuts = |listing: Listing| listing.motions.iter().any(sinks);
+    titles.any(|(title, _)| title.ends_with(" probe"))
+        && read(&without_own_code(text)).is_ok_and(|listing| !cuts(listing))
 }
 
 /// The texts of a setting that is a list, each of which may have blanks; none where the program
@@ -169,15 +172,13 @@ fn unescaped(value: &str) -> String {
 /// hash, and the line that says so.
 pub(super) fn origins(text: &str) -> Vec<(String, String, u32)> {
     let origin = |comment: &str| {
-        let (file, design) = comment.trim().strip_prefix("from ")?.rsplit_once(" design ")?;
+        let (file, design) = comment.strip_prefix("from ")?.rsplit_once(" design ")?;
         let is_hash = !design.is_empty() && design.bytes().all(|b| b.is_ascii_hexdigit());
         is_hash.then(|| (file.to_owned(), design.to_owned()))
     };
-    let lines = text.lines().zip(1_u32..).filter(|(line, _)| line.contains(" design "));
-    let found =
-        lines.flat_map(|(line, number)| comments(line).into_iter().map(move |comment| (comment, number)));
+    let found = remarks(lines(text)).into_iter();
     found
-        .filter_map(|(comment, number)| origin(comment).map(|(file, design)| (file, design, number)))
+        .filter_map(|(comment, number)| origin(&comment).map(|(file, design)| (file, design, number)))
         .collect()
 }
 
@@ -204,6 +205,24 @@ fn role(title: &str) -> Option<Role> {
     } else {
         None
     }
+}
+
+/// The comments of lines, each with the number of its line; one that goes on in the next line,
+/// whose comment begins with `+`, is one.
+fn remarks<'a>(lines: impl Iterator<Item = &'a str>) -> Vec<(String, u32)> {
+    let mut found: Vec<(String, u32)> = Vec::new();
+    let mut last = 0;
+    for (line, number) in lines.zip(1_u32..) {
+        for comment in comments(line) {
+            let comment = comment.trim();
+            match (found.last_mut().filter(|_| last + 1 == number), comment.strip_prefix('+')) {
+                (Some((begun, _)), Some(more)) => begun.push_str(more),
+                _ => found.push((comment.to_owned(), number)),
+            }
+            last = number;
+        }
+    }
+    found
 }
 
 /// The comments of a line: in parentheses, or behind a semicolon; and what stands behind M0, which

@@ -33,6 +33,11 @@ impl Edges {
         Self { edges, tree }
     }
 
+    /// All of them, each from where to where, the areas on its left.
+    pub(super) fn all(&self) -> impl Iterator<Item = [Spot; 2]> + Clone {
+        self.edges.iter().map(|&(a, b)| [a, b])
+    }
+
     /// Where the horizontal line at `y` crosses edges.
     pub(super) fn crossings(&self, y: f64) -> Vec<f64> {
         let mut found = Vec::new();

@@ -4,45 +4,24 @@ use std::f64::consts::PI;
 
 use crate::board::{Board, Shape, Side};
 use crate::gcode::level;
-use crate::gcode::read::{self, Coded, Dwell, Motion, Note, Stop, Tally, Way};
+use crate::gcode::read::{Motion, Way};
 use crate::geometry::{Arc, Nm, Point, Vector};
 
 use super::asked::Asked;
-use super::declared::{Declared, Mounted, declared_setting};
-use super::stream::{Feature, features, taken_at_once};
-use super::{Cutter, CutterKind, Error, Placement, Program, Role, Settings, origin};
+use super::declared::Declared;
+use super::followed::Followed;
+use super::{Cutter, CutterKind, Error, Laid, Placement, Program, Role, Settings, origin};
 
 /// A program, followed.
 #[derive(Debug)]
 pub(super) struct Machining {
-    pub(super) file: String,
+    /// What any machine does with it.
+    pub(super) followed: Followed,
     pub(super) role: Role,
     /// Whether it follows the surface as it was probed.
     pub(super) is_levelled: bool,
-    pub(super) placement: Placement,
-    /// Who says so; none where nobody does.
+    /// Who says how it lies; none where nobody does.
     pub(super) zero: Option<Zero>,
-    /// What it says, until that was looked at.
-    pub(super) motions: Vec<Motion>,
-    /// Where it waits for a person, or may.
-    pub(super) stops: Vec<Stop>,
-    /// Its dwells.
-    pub(super) dwells: Vec<Dwell>,
-    /// The first line of code behind its end.
-    pub(super) behind_end: Option<u32>,
-    /// Whether the spindle turns at its end.
-    pub(super) spinning: bool,
-    /// With what.
-    pub(super) tools: Tools,
-    /// What was assumed to follow it.
-    pub(super) notes: Vec<Note>,
-    /// Its codes, and the controller that it is for, where that is known.
-    pub(super) codes: Vec<Coded>,
-    pub(super) controller: Option<String>,
-    /// What of its lines some controllers take otherwise than it reads.
-    pub(super) features: Vec<(Feature, Tally)>,
-    /// Characters that its controller takes at once, wherever they stand.
-    pub(super) at_once: Vec<(char, Tally)>,
     /// What is cut away, deep enough to part the copper.
     pub(super) swept: Vec<Swept>,
     /// Where the tool goes straight down into the board and nothing sideways follows, on the board.
@@ -135,52 +114,21 @@ pub(super) fn with_radius(shape: &Shape, radius: Nm) -> Shape {
 impl Machining {
     /// Follows `program` on `board`.
     pub(super) fn read(program: &Program, board: &Board, settings: &Settings) -> Result<Self, Error> {
-        let failed = |reason| Error::Read { file: program.file.clone(), reason };
-        let text = read::without_own_code(&program.text);
-        let listing = read::read(&text).map_err(failed)?;
-        if listing.motions.is_empty() {
+        let declared = Declared::read(&program.text);
+        let (zero, placement) = lying(program, &declared, board);
+        let followed = Followed::read(program, declared.mounted, placement)?;
+        if followed.listing.motions.is_empty() {
             return Err(Error::NoMotion(program.file.clone()));
         }
-        let mut declared = Declared::read(&program.text);
-        let point = declared_setting(&program.text, "drill-tip-angle");
-        if let Some(degrees) = point.and_then(|angle| angle.strip_suffix("deg")?.parse::<f64>().ok()) {
-            declared.mounted.iter_mut().for_each(|tool| tool.cutter = tool.cutter.pointed(degrees));
-        }
-        let tools = Tools { only: program.cutter, declared: declared.mounted };
         let role = match program.role.or(declared.role) {
             Some(role) => role,
-            None => {
-                guess(&listing.motions, &tools, board).ok_or_else(|| Error::NoSide(program.file.clone()))?
-            }
+            None => guess(&followed, board).ok_or_else(|| Error::NoSide(program.file.clone()))?,
         };
-        let zero = match program.placement {
-            Some(_) => Some(Zero::Given),
-            None => declared.origin.as_ref().map(|_| Zero::Told),
-        };
-        let placement = program.placement.or_else(|| {
-            let front = origin(declared.origin.as_deref().unwrap_or("keep"), declared.degrees, board)?;
-            Some(Placement { mirror: declared.mirror, shift: front.shift + declared.offset, ..front })
-        });
-        let placement = placement.unwrap_or_default();
-        let controller = program.dialect.clone().or_else(|| declared_setting(&program.text, "dialect"));
-        let file = program.file.clone();
         let mut machining = Self {
-            file,
+            followed,
             role,
             is_levelled: level::is_levelled(&program.text),
-            placement,
             zero,
-            features: features(&text, &listing),
-            motions: listing.motions,
-            stops: listing.stops,
-            dwells: listing.dwells,
-            behind_end: listing.behind_end,
-            spinning: listing.spinning,
-            tools,
-            notes: listing.notes,
-            codes: listing.codes,
-            at_once: controller.as_ref().map_or_else(Vec::new, |name| taken_at_once(&program.text, name)),
-            controller,
             swept: Vec::new(),
             plunges: Vec::new(),
             kerfs: Vec::new(),
@@ -195,17 +143,17 @@ impl Machining {
     fn sweep(&mut self, settings: &Settings) -> Result<(), Error> {
         let copper = settings.copper;
         let mut deepest: Vec<(Cutter, Nm)> = Vec::new();
-        for motion in &self.motions {
+        for motion in &self.followed.listing.motions {
             let (Some(from), Some(to)) = (motion.from.point(), motion.to.point()) else { continue };
             let Some((above, below)) = heights(motion) else { continue };
             if above.min(below) > -copper {
                 continue;
             }
             if !within_range(&[from, to]) {
-                return Err(Error::Range { file: self.file.clone(), line: motion.line });
+                return Err(Error::Range { file: self.followed.file.clone(), line: motion.line });
             }
-            let Some(cutter) = self.tools.at(motion.line) else {
-                return Err(Error::NoTool { file: self.file.clone(), line: motion.line });
+            let Some(cutter) = self.followed.tools.at(motion.line) else {
+                return Err(Error::NoTool { file: self.followed.file.clone(), line: motion.line });
             };
             match deepest.iter_mut().find(|(known, _)| *known == cutter) {
                 Some((_, depth)) => *depth = (*depth).max(-above.min(below)),
@@ -216,7 +164,7 @@ impl Machining {
             for (shape, depth) in pieces(motion, from, to, cutter, levels) {
                 if depth >= copper {
                     let shape = with_radius(&shape, cutter.width_at(depth) / 2);
-                    let shape = self.placement.undo_axis(shape);
+                    let shape = self.followed.placement.undo_axis(shape);
                     let floor = cutter.width_at(depth - copper) / 2;
                     let full = depth - cutter.point();
                     self.swept.push(Swept { shape, floor, depth, full, line: motion.line, slopes });
@@ -245,14 +193,14 @@ impl Machining {
         };
         let sunk = |z: Option<Nm>| z.is_some_and(|z| z < Nm::ZERO);
         let mut down: Option<Point> = None;
-        for motion in &self.motions {
+        for motion in &self.followed.listing.motions {
             let Some(at) = motion.to.point() else { continue };
             if !level(motion) && (sunk(motion.from.z) || sunk(motion.to.z)) {
                 down = None;
                 continue;
             }
             if sunk(motion.to.z) && !sunk(motion.from.z) {
-                down = Some(self.placement.undo(at));
+                down = Some(self.followed.placement.undo(at));
             } else if sunk(motion.from.z) && !sunk(motion.to.z) {
                 self.plunges.extend(down.take());
             }
@@ -261,33 +209,25 @@ impl Machining {
     }
 }
 
-/// The tools of a program by line.
-#[derive(Debug)]
-pub(super) struct Tools {
-    only: Option<Cutter>,
-    declared: Vec<Mounted>,
+/// Who says how a program lies on a board, and how.
+fn lying(program: &Program, declared: &Declared, board: &Board) -> (Option<Zero>, Placement) {
+    match program.placement {
+        Some(placement) => (Some(Zero::Given), placement),
+        None => (declared.origin.as_ref().map(|_| Zero::Told), laid(declared, board, &Laid::default())),
+    }
 }
 
-impl Tools {
-    /// Whether they are the same in the same order.
-    pub(super) fn are(&self, other: &Self) -> bool {
-        let declared = |tools: &Self| tools.declared.iter().map(|tool| tool.cutter).collect::<Vec<_>>();
-        self.only == other.only && declared(self) == declared(other)
-    }
-
-    /// The tool that cuts in `line`.
-    pub(super) fn at(&self, line: u32) -> Option<Cutter> {
-        self.only.or_else(|| Some(self.mounted(line)?.cutter))
-    }
-
-    /// Its number, where comments say it.
-    pub(super) fn number_at(&self, line: u32) -> Option<u32> {
-        self.mounted(line)?.number
-    }
-
-    fn mounted(&self, line: u32) -> Option<&Mounted> {
-        let before = self.declared.partition_point(|tool| tool.line <= line);
-        before.checked_sub(1).map(|last| &self.declared[last])
+/// How a program lies on a board: as its comments say, but for what is given.
+pub(super) fn laid(declared: &Declared, board: &Board, given: &Laid) -> Placement {
+    let degrees = given.degrees.unwrap_or(declared.degrees);
+    let front = origin(declared.origin.as_deref().unwrap_or("keep"), degrees, board);
+    let Some(front) = front else { return Placement::default() };
+    // Of one that says how it lies and is not mirrored no line is asked for.
+    let is_mirrored = declared.mirror.is_some() || declared.origin.is_none();
+    Placement {
+        mirror: given.mirror.filter(|_| is_mirrored).or(declared.mirror),
+        shift: given.shift.unwrap_or(front.shift + declared.offset),
+        ..front
     }
 }
 
@@ -384,7 +324,8 @@ pub(super) fn part(axis: &Shape, from: f64, to: f64) -> Shape {
 
 /// What a program is for, by its motions: drilling where it never goes sideways below the surface,
 /// cutting out where it goes deeper than copper asks for, else isolating the side that has copper.
-fn guess(motions: &[Motion], tools: &Tools, board: &Board) -> Option<Role> {
+fn guess(Followed { listing, tools, .. }: &Followed, board: &Board) -> Option<Role> {
+    let motions = &listing.motions;
     let sunk = |motion: &&Motion| heights(motion).is_some_and(|(a, b)| a.min(b) < Nm::ZERO);
     let sideways =
         |motion: &Motion| motion.from.point() != motion.to.point() || matches!(motion.way, Way::Arc { .. });

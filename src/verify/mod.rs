@@ -46,6 +46,7 @@ mod drilled;
 mod edges;
 mod exact;
 mod flood;
+mod followed;
 mod hit;
 mod interior;
 mod levelled;
@@ -79,7 +80,7 @@ use rayon::prelude::*;
 
 use crate::board::{Board, Side, Words};
 use crate::gcode::ReadError;
-use crate::geometry::{Nm, Point, Rect};
+use crate::geometry::{Nm, Point, Rect, Vector};
 use crate::grid::GridError;
 use crate::topology::Nets;
 
@@ -87,7 +88,7 @@ pub use crate::board::Severity;
 pub use asked::Asked;
 pub use contours::THINNEST_TAB;
 pub use cutter::{Cutter, CutterKind, ParseCutterError};
-pub use declared::{declared_list, declared_probe, declared_setting, is_isolation};
+pub use declared::{declared_list, declared_setting, is_isolation, is_probe};
 pub use diff::{Change, Comparison, Region, Spot, diff};
 pub use placement::Placement;
 pub use register::{Orientation, register};
@@ -97,6 +98,7 @@ pub use tiles::Tiles;
 
 use bores::Bores;
 use contours::Contours;
+use declared::Declared;
 use drilled::Drilled;
 use machining::Machining;
 use outcome::Outcome;
@@ -144,6 +146,27 @@ pub struct Program {
     /// The [dialect](crate::gcode::dialect::ALL) of the machine that is to run it; else what its
     /// comments say.
     pub dialect: Option<String>,
+    /// Whether each character of its text is one byte of its file, as of one that is no UTF-8.
+    pub is_bytes: bool,
+}
+
+/// What is given of how the board lies in a program, in place of what its comments say.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Laid {
+    /// How far the board was turned, counter-clockwise in degrees.
+    pub degrees: Option<f64>,
+    /// What was added to its coordinates then.
+    pub shift: Option<Vector>,
+    /// The x about which it was mirrored at last; of no matter for a program that says it was not.
+    pub mirror: Option<Nm>,
+}
+
+impl Laid {
+    /// How `board` lies in `program`: as its comments say, but for what is given.
+    #[must_use]
+    pub fn of(&self, program: &Program, board: &Board) -> Placement {
+        machining::laid(&Declared::read(&program.text), board, self)
+    }
 }
 
 /// A file of the board that programs are judged by.
@@ -288,6 +311,9 @@ pub enum Error {
         /// The side.
         side: Side,
     },
+    /// The board has no outline.
+    #[error("{0}: the board has no outline: what cuts it out cannot be judged")]
+    NoOutline(String),
     /// A program that was to be laid over the board, and fits nowhere.
     #[error("{0}: it does not fit the board in any position")]
     Unplaced(String),
@@ -308,6 +334,9 @@ impl Error {
             Self::NoSide(_) => "set it: {side} front, or back",
             Self::NoCopper { .. } => {
                 "give the board that the program is for, with the copper of that side; if it is for the other side, say so: {side}"
+            }
+            Self::NoOutline(_) => {
+                "give the board with its outline; if the program is for something else, say so: {side}"
             }
             Self::Grid(_) => "choose a larger {pixel}",
             Self::Unplaced(_) => "set its placement: {offset}, {mirror-axis}, {rotate}",
@@ -345,7 +374,7 @@ pub fn verify(
         .map(|program| Machining::read(program, board, settings))
         .collect::<Result<_, _>>()?;
     // All lie alike: what one program says of how the board is turned goes for all tiles.
-    let degrees = read.first().map_or(0.0, |machining| machining.placement.degrees);
+    let degrees = read.first().map_or(0.0, |machining| machining.followed.placement.degrees);
     let tiled = settings.tiles.map(|tiles| tiles.lay(board, degrees));
     if let Some(tiles) = settings.tiles {
         let ways = tiles.ways(board, degrees);
@@ -354,9 +383,9 @@ pub fn verify(
     let (board, known) = tiled.as_ref().map_or((board, known), |tiled| (tiled, &[]));
     let mut findings: Vec<Finding> =
         read.par_iter().flat_map_iter(|program| check::motion(program, board, settings)).collect();
-    // Nothing else asks for them, and they are as much again as what is cut.
-    read.iter_mut().for_each(|machining| machining.motions = Vec::new());
     findings.extend(levelled::set_aside(&mut read, programs));
+    // Nothing else asks for them, and they are as much again as what is cut.
+    read.iter_mut().for_each(|machining| machining.followed.listing.motions = Vec::new());
     let mut roles: Vec<Role> = read.iter().map(|machining| machining.role).collect();
     roles.sort_unstable();
     roles.dedup();
@@ -383,10 +412,10 @@ pub fn verify(
 /// The place of a finding as its program has it; of what no program does, as one of those that
 /// should have done it has it.
 fn on_machine(finding: &Finding, read: &[Machining]) -> Option<Point> {
-    let by_name = |machining: &&Machining| finding.program.as_ref() == Some(&machining.file);
+    let by_name = |machining: &&Machining| finding.program.as_ref() == Some(&machining.followed.file);
     let role = finding.side.map_or(Role::Drilling, Role::Isolation);
     let by_role = || read.iter().find(|machining| machining.role == role);
-    Some(read.iter().find(by_name).or_else(by_role)?.placement.apply(finding.at?))
+    Some(read.iter().find(by_name).or_else(by_role)?.followed.placement.apply(finding.at?))
 }
 
 fn judge(
@@ -404,7 +433,7 @@ fn judge(
     let mut resolution = None;
     match role {
         Role::Isolation(side) => {
-            let missing = || Error::NoCopper { file: programs[0].file.clone(), side };
+            let missing = || Error::NoCopper { file: programs[0].followed.file.clone(), side };
             let copper =
                 board.copper(side).filter(|copper| !copper.features.is_empty()).ok_or_else(missing)?;
             let nets = known.iter().find(|known| known.side == side).map(|known| known.nets);
@@ -415,16 +444,17 @@ fn judge(
         }
         Role::Drilling => findings.extend(check::drilling(bores, board, settings)),
         Role::Cutout => {
-            let contours = Contours::new(&programs, &of(Role::Drilling), board, settings);
-            findings.extend(contours.iter().flat_map(|contours| check::cutout(contours, board, settings)));
+            let contours = Contours::new(&programs, &of(Role::Drilling), board, settings)
+                .ok_or_else(|| Error::NoOutline(programs[0].followed.file.clone()))?;
+            findings.extend(check::cutout(&contours, board, settings));
         }
         Role::Alignment => {
             let others = read.iter().filter(|machining| machining.role != Role::Alignment);
-            let mirror = others.filter_map(|machining| machining.placement.mirror).next();
+            let mirror = others.filter_map(|machining| machining.followed.placement.mirror).next();
             findings.extend(check::alignment(&programs, mirror, board, settings));
         }
     }
-    let programs = programs.iter().map(|program| program.file.clone()).collect();
+    let programs = programs.iter().map(|program| program.followed.file.clone()).collect();
     Ok((Judged { programs, role, resolution }, findings))
 }
 

@@ -130,7 +130,7 @@ pub fn register(
     let declared = Machining::read(program, board, settings)?;
     let told = if declared.zero.is_some() { TOLD } else { LIKELY };
     let likely = likely.iter().map(|&likely| (likely, LIKELY));
-    let candidates = [(declared.placement, told)].into_iter().chain(likely);
+    let candidates = [(declared.followed.placement, told)].into_iter().chain(likely);
     for (placement, share) in candidates.filter(|(candidate, _)| known.allows(candidate)) {
         let as_likely = trial(program, board, placement, settings)?;
         let laid = laid(placement.degrees);

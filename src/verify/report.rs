@@ -100,6 +100,13 @@ impl Report {
         self
     }
 
+    /// This and another, of other programs.
+    #[must_use]
+    pub fn joined(mut self, other: Self) -> Self {
+        self.judged.extend(other.judged);
+        self.with(other.findings)
+    }
+
     /// The worst first, then by name, place and line.
     pub(super) fn sort(&mut self) {
         self.findings.sort_by(|a, b| {

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 
 use crate::gcode::read::{Listing, Tally, lines};
 
+use super::Program;
+
 /// Something about a line that some controllers take otherwise than it reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Feature {
@@ -30,6 +32,10 @@ pub(super) enum Feature {
     Percent,
     /// More characters than Grbl keeps.
     Long,
+    /// A comment within a comment in parentheses.
+    Nested,
+    /// An arc whose line does not say where it ends: a full circle.
+    Endless,
 }
 
 /// So many characters of a line Grbl keeps, blanks and comments not counted (protocol.c of 1.1h).
@@ -41,6 +47,7 @@ pub(super) fn features(text: &str, listing: &Listing) -> Vec<(Feature, Tally)> {
         (Feature::Bare, listing.bare),
         (Feature::Several, listing.several),
         (Feature::Radius, listing.radius),
+        (Feature::Endless, listing.endless),
     ];
     let mut found: BTreeMap<Feature, Tally> =
         followed.into_iter().filter_map(|(feature, tally)| Some((feature, tally?))).collect();
@@ -65,6 +72,7 @@ struct Text {
     code: String,
     has_comment: bool,
     goes_on_behind: bool,
+    is_nested: bool,
 }
 
 impl Text {
@@ -73,7 +81,10 @@ impl Text {
         let (mut text, mut depth) = (Self::default(), 0_u32);
         for c in line.chars() {
             match c {
-                '(' => depth += 1,
+                '(' => {
+                    text.is_nested |= depth > 0;
+                    depth += 1;
+                }
                 ')' if depth > 0 => depth -= 1,
                 _ if depth > 0 => {}
                 ';' => break,
@@ -106,6 +117,7 @@ impl Text {
             here(words.starts_with('O'), Feature::Subprogram),
             here(code.starts_with('%'), Feature::Percent),
             here(code.chars().count() > KEPT, Feature::Long),
+            here(self.is_nested, Feature::Nested),
         ];
         among.into_iter().flatten()
     }
@@ -124,7 +136,8 @@ fn numbered(code: &str) -> (Option<u64>, &str) {
 /// Characters that controllers take out of the stream at once, wherever they stand.
 struct AtOnce {
     controllers: &'static [&'static str],
-    takes: fn(char) -> bool,
+    /// Of a character and its bytes.
+    takes: fn(char, &[u8]) -> bool,
     /// Whether in comments in parentheses, too.
     in_parentheses: bool,
 }
@@ -136,28 +149,37 @@ const RESET: char = '\u{18}';
 const AT_ONCE: &[AtOnce] = &[
     AtOnce {
         controllers: &["grbl"],
-        takes: |c| matches!(c, '!' | '~' | RESET) || is_override(c),
+        takes: |c, bytes| matches!(c, '!' | '~' | RESET) || has_override(bytes),
         in_parentheses: true,
     },
-    AtOnce { controllers: &["grblhal"], takes: |c| matches!(c, '!' | '~'), in_parentheses: false },
-    AtOnce { controllers: &["grblhal"], takes: |c| c == RESET || is_override(c), in_parentheses: true },
+    AtOnce { controllers: &["grblhal"], takes: |c, _| matches!(c, '!' | '~'), in_parentheses: false },
+    AtOnce {
+        controllers: &["grblhal"],
+        takes: |c, bytes| c == RESET || has_override(bytes),
+        in_parentheses: true,
+    },
     AtOnce {
         controllers: &["fluidnc"],
-        takes: |c| matches!(c, '!' | '~' | RESET | '\u{84}'..='\u{a1}'),
+        takes: |c, _| matches!(c, '!' | '~' | RESET | '\u{84}'..='\u{a1}'),
         in_parentheses: true,
     },
-    AtOnce { controllers: &["tinyg"], takes: |c| matches!(c, '!' | '~' | '%' | RESET), in_parentheses: true },
+    AtOnce {
+        controllers: &["tinyg"],
+        takes: |c, _| matches!(c, '!' | '~' | '%' | RESET),
+        in_parentheses: true,
+    },
 ];
 
-/// Whether a character has a byte that Grbl takes for an override.
-fn is_override(c: char) -> bool {
-    let takes = |byte: u8| matches!(byte, 0x84 | 0x85 | 0x90..=0x97 | 0x99..=0x9e | 0xa0 | 0xa1);
-    !c.is_ascii() && c.encode_utf8(&mut [0; 4]).bytes().any(takes)
+/// Whether one of these bytes is an override of Grbl.
+fn has_override(bytes: &[u8]) -> bool {
+    let takes = |byte: &u8| matches!(byte, 0x84 | 0x85 | 0x90..=0x97 | 0x99..=0x9e | 0xa0 | 0xa1);
+    bytes.iter().any(takes)
 }
 
 /// The characters of a program that its controller takes at once, in the order of their first
 /// occurrence.
-pub(super) fn taken_at_once(text: &str, controller: &str) -> Vec<(char, Tally)> {
+pub(super) fn taken_at_once(program: &Program, controller: &str) -> Vec<(char, Tally)> {
+    let text = &program.text;
     let mut found: Vec<(char, Tally)> = Vec::new();
     let rules: Vec<&AtOnce> = AT_ONCE.iter().filter(|rule| rule.controllers.contains(&controller)).collect();
     // Most programs have none.
@@ -168,7 +190,13 @@ pub(super) fn taken_at_once(text: &str, controller: &str) -> Vec<(char, Tally)> 
         let mut within = false;
         for c in text.chars() {
             within = (within || c == '(') && c != ')';
-            if !rules.iter().any(|rule| (rule.takes)(c) && (rule.in_parentheses || !within)) {
+            let mut utf8 = [0; 4];
+            let byte = u8::try_from(c).ok().filter(|_| program.is_bytes);
+            let bytes = match &byte {
+                Some(byte) => std::slice::from_ref(byte),
+                None => c.encode_utf8(&mut utf8).as_bytes(),
+            };
+            if !rules.iter().any(|rule| (rule.takes)(c, bytes) && (rule.in_parentheses || !within)) {
                 continue;
             }
             match found.iter_mut().find(|(known, _)| *known == c) {
@@ -191,7 +219,8 @@ mod tests {
 
     #[test]
     fn comments_lie_beside_code_before_it_or_alone() {
-        assert_eq!(of("(end mill (long))\n; (a)\nG0 X1 ; (b)\n"), [], "alone");
+        assert_eq!(of("(end mill)\n; (a)\nG0 X1 ; (b (c))\n"), [], "alone");
+        assert_eq!(of("(end mill (long))\n"), [(Feature::Nested, 1, 1)], "within one");
         assert_eq!(of("G0 X1\nG0 X1 (up)\n"), [(Feature::BesideComment, 2, 1)], "behind the code");
         assert_eq!(
             of("(on) M3\nG0 (up) Z2\n"),

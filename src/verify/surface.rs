@@ -2,13 +2,14 @@
 //! straight.
 
 use crate::board::Board;
-use crate::gcode::read::{Listing, Motion, Way};
+use crate::gcode::read::{Motion, Way};
 use crate::geometry::{Arc, Nm, Rect};
 use crate::grid::Grid;
 use rayon::prelude::*;
 
 use super::cutter::Cutter;
 use super::edges::Spot;
+use super::followed::Followed;
 use super::machining::Machining;
 use super::sweep::{Sweep, Sweeps};
 use super::{Error, Program, Settings};
@@ -29,13 +30,10 @@ pub struct Surface {
 }
 
 impl Surface {
-    /// All that the motions of programs mill, each with its tool; arcs as chords within `chord`.
-    pub(super) fn new(programs: &[(Listing, Cutter)], chord: Nm) -> Self {
-        let mut sweeps = Vec::new();
-        for (listing, cutter) in programs {
-            listing.motions.iter().for_each(|motion| swept(motion, cutter, chord, &mut sweeps));
-        }
-        Self { sweeps: Sweeps::new(sweeps) }
+    /// All that the motions of programs mill; arcs as chords within `chord`.
+    pub(super) fn new(programs: &[Followed], chord: Nm) -> Self {
+        let sweeps = programs.iter().flat_map(|program| all_swept(program, chord));
+        Self { sweeps: Sweeps::new(sweeps.collect()) }
     }
 
     /// What programs mill of a side of a board, for pictures of it: on the board, as
@@ -47,13 +45,8 @@ impl Surface {
     pub fn of_board(programs: &[Program], board: &Board, settings: &Settings) -> Result<Self, Error> {
         let followed = |program: &Program| {
             let machining = Machining::read(program, board, settings)?;
-            let mut sweeps = Vec::new();
-            for motion in &machining.motions {
-                if let Some(cutter) = machining.tools.at(motion.line) {
-                    swept(motion, &cutter, COARSE, &mut sweeps);
-                }
-            }
-            sweeps.iter_mut().for_each(|sweep| sweep.lay(&machining.placement));
+            let mut sweeps = all_swept(&machining.followed, COARSE);
+            sweeps.iter_mut().for_each(|sweep| sweep.lay(&machining.followed.placement));
             Ok(sweeps)
         };
         let sweeps: Vec<Vec<Sweep>> = programs.par_iter().map(followed).collect::<Result<_, Error>>()?;
@@ -128,6 +121,11 @@ impl Surface {
         Nm::from_f64(self.sweeps.all().iter().flat_map(|sweep| sweep.depths).fold(0.0, f64::max))
     }
 
+    /// The ways of the tip below the surface, from where to where.
+    pub(super) fn ways(&self) -> impl Iterator<Item = [Spot; 2]> + Clone {
+        self.sweeps.all().iter().map(|sweep| [sweep.from, sweep.to])
+    }
+
     /// The deepest place of the tip beyond a rectangle, with its depth; none where it stays within.
     pub(super) fn beyond(&self, rect: Rect) -> Option<(Spot, f64)> {
         let (low, high) = (rect.min().to_f64(), rect.max().to_f64());
@@ -141,6 +139,17 @@ impl Surface {
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
 const fn pixel(place: f64) -> u32 {
     place as u32
+}
+
+/// The straight sweeps of all motions of a program whose tool is known.
+fn all_swept(program: &Followed, chord: Nm) -> Vec<Sweep> {
+    let mut sweeps = Vec::new();
+    for motion in &program.listing.motions {
+        if let Some(cutter) = program.tools.at(motion.line) {
+            swept(motion, &cutter, chord, &mut sweeps);
+        }
+    }
+    sweeps
 }
 
 /// The straight sweeps of a motion that reaches below the surface.

@@ -261,6 +261,7 @@ fn walls_of_wide_places_are_cut_without_an_end_mill() {
     let made = engraving("square", square, "vbit:0.1mm:60deg", &how);
     let judged = made.verify(PITCH).expect("a program");
     assert_eq!(judged.findings, []);
+    assert_eq!(made.programs[0].statistics.retracts, 1, "round it, and on the way into each corner");
     assert!((60.0..90.0).contains(&judged.left_mm2), "the middle of 100 mm² stays: {}", judged.left_mm2);
     let text = &made.programs[0].text;
     let corner = text.lines().rfind(|line| line.starts_with("G1 X")).expect("a cut");
@@ -278,6 +279,12 @@ fn how_a_program_ends_is_looked_at() {
     };
     let text = &made.programs[0].text;
     assert_eq!(told(text), [""; 0]);
+    // What is looked for in programs for boards.
+    assert_eq!(told(&text.replace("G17 G21 G90 G94", "G17 G90 G94")), ["unclear"], "no unit");
+    assert_eq!(told(&text.replace("M3 S", "M4 S")), ["unclear"], "backwards");
+    let low = text.replacen("G0 Z2\n", "", 1).replacen("G0 X", "G0 Z0.01\nG0 X", 1);
+    assert!(told(&low).contains(&"rapid-in-material"), "hardly above: {:?}", told(&low));
+    assert_eq!(told(&text.replacen("G17", "M6 T1\nG17", 1)), ["word-not-taken"], "Grbl knows no M6");
     assert_eq!(told(&format!("{text}G0 Z-3\n")), ["code-after-end"]);
     assert_eq!(told(&text.replace("M5\nM2\n", "")), ["spindle-left-on"]);
     let down = text.replace("M5\nM2\n", "G1 Z-0.1 F60\nM5\nM2\n");
@@ -484,6 +491,37 @@ fn twenty_kinds_of_spoiling_are_found() {
         // A text that cannot be followed is found, too.
         let found = made.judge(&[("it", spoilt.as_str())], PITCH).map_or(1, |judged| judged.findings.len());
         assert!(found > 0, "{how}: nothing is found");
+    }
+}
+
+/// On a large drawing the places of the grid lie half a millimetre from each other, between which
+/// all of this fits.
+#[test]
+fn what_is_small_is_found_on_a_large_drawing() {
+    let rectangle = |x: i64, y: i64, width: i64, height: i64| {
+        let corner = |x, y| Point::new(Nm::from_um(x), Nm::from_um(y));
+        Polygon::rectangle(Rect::new(corner(x, y), corner(x + width, y + height)))
+    };
+    let areas = vec![rectangle(0, 0, 300_000, 200), rectangle(0, 299_800, 200, 200)];
+    let made = engraving("far apart", areas, "vbit:0mm:60deg", &HOW);
+    let found = |text: &str| {
+        let judged = made.judge(&[("it", text)], None).expect("a program");
+        judged.findings.iter().map(|finding| finding.name).collect::<Vec<_>>()
+    };
+    let text = made.programs[0].text.as_str();
+    assert_eq!(found(text), [""; 0], "nothing is wrong with it as it is");
+    let flat = lines(text, |line, _| {
+        let is_far = line.split('Y').nth(1).is_some_and(|y| y.starts_with("299"));
+        Some(if is_far { word(line, 'Z', |z| z.max(0.0)) } else { line.to_owned() })
+    });
+    assert!(found(&flat).contains(&"carved-too-shallow"), "a square that is left out: {:?}", found(&flat));
+    let short = text.replacen("G1 X0 Y0 Z0 ", "G1 X0.1 Y0.1 Z-0.1732 ", 1);
+    assert_ne!(short, text, "the branch into the first corner");
+    assert!(found(&short).contains(&"carved-too-shallow"), "a corner that is missing: {:?}", found(&short));
+    let before = text.rfind("M5").expect("the spindle stops");
+    for beside in ["G1 Z-0.1\n", "G1 Z-0.02\nG1 X150.3\n"] {
+        let groove = format!("{}G0 X150 Y150\n{beside}G0 Z2\n{}", &text[..before], &text[before..]);
+        assert_eq!(found(&groove), ["carved-outside"], "a groove beside the areas: {beside}");
     }
 }
 

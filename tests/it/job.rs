@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use voromill::board::Side;
 use voromill::gcode::{dialect, read};
-use voromill::geometry::Nm;
+use voromill::geometry::{Nm, Segment, Vector};
 use voromill::import::{self, Loaded, Selection};
-use voromill::job::{self, Job, Options, Part, Settings};
+use voromill::job::{self, Job, Options, Part, Reach, Settings};
 use voromill::verify::Severity;
 
 /// The job on a board of `fixtures/boards`, with settings as a settings file gives them.
@@ -189,6 +189,64 @@ fn holes_that_no_drill_fits_are_bored_or_named() {
     assert!(!warned(&bored, "no-drill-for-hole"), "bored: {:?}", bored.warnings);
 }
 
+/// However far drills may be off, an end mill makes no slot wider than it is.
+#[test]
+fn a_slot_is_not_bored_by_a_mill_that_does_not_fit() {
+    let mut loaded = load("regulator");
+    let mut slot = loaded.board.holes[0].clone();
+    slot.path.segments = vec![Segment::Line { to: slot.path.start + Vector::new(Nm::from_mm(2), Nm::ZERO) }];
+    slot.diameter = Nm::from_um(600);
+    loaded.board.holes = vec![slot];
+    let tools = |settings: &str| -> Vec<String> {
+        let settings = of_file(&format!("drill-tolerance = \"10mm\"\n{settings}"));
+        let job = job::mill(loaded.clone(), &settings).expect("programs");
+        let drill = job.programs.iter().find(|written| written.part == Part::Drill);
+        let sections = drill.map_or(&[][..], |written| &written.program.sections);
+        sections.iter().map(|section| section.tool.kind.to_string()).collect()
+    };
+    assert_eq!(tools("drill-bore-tool = \"endmill:2mm\"\ndrills = \"0.6mm\""), ["drill:0.6mm"]);
+    assert_eq!(tools("drill-bore-tool = \"endmill:0.65mm\"\ndrills = \"0.6mm\""), ["endmill:0.65mm"]);
+}
+
+/// What is said for drills replaces what a drill's table says, and what is said for cutters does
+/// not.
+#[test]
+fn speeds_of_drills_are_those_that_are_said_for_drills() {
+    let table = Options::from_toml(
+        "voromill.toml",
+        "drills = \"d08\"\n[tools.d08]\nkind = \"drill\"\ndiameter = \"0.8mm\"\nplunge = \"40mm/min\"\nspindle = 6000\n",
+    );
+    let table = table.expect("options");
+    let speeds = |given: &str| {
+        let given = Options::from_toml("given", given).expect("options");
+        let drill = Settings::resolve(given.or(table.clone())).expect("settings").drills[0].clone();
+        (drill.plunge.to_string(), drill.spindle)
+    };
+    assert_eq!(speeds(""), ("40mm/min".to_owned(), 6000));
+    assert_eq!(speeds("plunge = \"90mm/min\"\nspindle = 11000"), ("40mm/min".to_owned(), 6000));
+    assert_eq!(speeds("drill-plunge = \"70mm/min\""), ("70mm/min".to_owned(), 6000));
+}
+
+/// What is a board's alone does not stop shapes from being milled.
+#[test]
+fn settings_of_boards_are_no_matter_where_shapes_are_milled() {
+    let of = |text: &str| Options::from_toml("voromill.toml", text).expect("options");
+    for text in [
+        "kerf = \"0.2mm\"\ntool = \"vbit:0.5mm:60deg\"",
+        "adaptive-depth = \"0.05mm\"\nframe-margin = \"0.3mm\"\nlimit = \"0.5mm\"\ntool = \"endmill:3mm\"",
+        "tool = \"endmill:12.7mm\"\ndepth = \"3mm\"",
+    ] {
+        assert!(Settings::resolve(of(text)).is_err(), "no board: {text}");
+        for reach in [Reach::POCKETS, Reach::CARVING] {
+            Settings::for_artwork(of(text), reach).expect(text);
+        }
+    }
+    let own = "depth = \"4mm\"\ntool = \"small\"\n[tools.small]\nkind = \"endmill\"\ndiameter = \"1mm\"\ndepth = \"0.1mm\"\n";
+    let deep = |settings: Settings| settings.isolation[0].heights.cut;
+    assert_eq!(deep(Settings::resolve(of(own)).expect("a board's")), Nm::from_um(100), "to isolate");
+    assert_eq!(deep(Settings::for_artwork(of(own), Reach::POCKETS).expect("a pocket's")), Nm::from_mm(4));
+}
+
 /// Whether verification finds nothing worse than a sliver.
 fn is_sound(job: &Job, settings: &Settings) -> bool {
     job.verify(settings).expect("a verdict").findings.iter().all(|finding| finding.name == "sliver")
@@ -303,6 +361,10 @@ fn a_board_of_one_side_that_is_turned_has_pins_too() {
         job::mill(loaded, &settings).expect("programs").programs[0].part
     };
     assert_eq!(first(""), Part::Front, "nothing is turned");
+    let mut loaded = load("regulator");
+    loaded.board.back = None;
+    let alone = job::mill(loaded, &of_file("alignment-holes = \"3mm\"")).expect("programs");
+    assert!(warned(&alone, "pins-without-flip"), "it is said: {:?}", alone.warnings);
     assert_eq!(first("cutout-side = \"back\""), Part::Alignment, "for the cutout");
     assert_eq!(first("drill-side = \"back\""), Part::Alignment, "for the holes");
 }
@@ -324,6 +386,10 @@ fn programs_that_the_machine_cannot_reach_are_named() {
     assert!(panel.len() > 3, "each program that mills both boards: {panel:?}");
     assert!(panel.iter().all(|message| message.starts_with("x goes from ")), "{panel:?}");
     assert_eq!(found("tile = \"2x1\"\nmachine-travel = \"200mm,100mm,40mm\""), [""; 0]);
+    // Pins stand beside the board, farther out than anything else goes.
+    let pins = "alignment-holes = \"3mm\"\nmachine-travel = \"200mm,45mm,40mm\"";
+    let beside = found(&format!("tile = \"2x1\"\n{pins}"));
+    assert!(beside.iter().any(|message| message.starts_with("y goes from ")), "the pins: {beside:?}");
 }
 
 #[test]

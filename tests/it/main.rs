@@ -79,6 +79,7 @@ mod verify_drilled;
 mod verify_foreign;
 mod verify_loads;
 mod verify_mutations;
+mod verify_texts;
 mod verify_whole;
 mod voronoi;
 mod warnings;

@@ -478,6 +478,49 @@ fn rises_are_as_fast_as_the_machine_without_a_word() {
     assert_eq!(told(-1000), (1, slow), "down");
 }
 
+/// Down a slope of 45° z is √2 times as slow as the way is.
+#[test]
+fn down_a_slope_z_goes_no_faster_than_it_can() {
+    let at = |x: i64, z: i64| Position { x: Nm::from_um(x), z: Nm::from_um(z), ..Position::default() };
+    let [fast, slow]: [voromill::toolpath::Feed; 2] =
+        ["600mm/min", "100mm/min"].map(|feed| feed.parse().expect("a feed"));
+    let machine = Machine { feed: Some([fast, fast, slow]), ..Machine::default() };
+    let limited = |to: Position| {
+        let moves = vec![Move::Rapid { to: at(0, 0) }, Move::Feed { to, feed: fast }];
+        let own = Tool { plunge: fast, ..tool("endmill:1mm") };
+        let section = Section { tool: own, label: String::new(), moves };
+        let mut program =
+            Program { title: String::new(), notes: Vec::new(), safe: Nm::ZERO, sections: vec![section] };
+        assert_eq!(machine.restrain(&mut program).len(), 0, "of plunges is told");
+        let Move::Feed { feed, .. } = program.sections[0].moves[1] else { panic!("a feed") };
+        feed.to_string()
+    };
+    assert_eq!(limited(at(1000, -1000)), "141mm/min", "as fast down as along");
+    assert_eq!(limited(at(1000, -10)), "600mm/min", "hardly down");
+    assert_eq!(limited(at(1000, 1000)), "600mm/min", "up");
+}
+
+/// In a hole of 10 × 10 mm a tab of 2 mm has no straight way of twice its opening: it stands on a
+/// side all the same, and none goes round a corner.
+#[test]
+fn in_a_small_cut_out_tabs_stand_between_its_corners() {
+    let (tool, placement) = (tool("endmill:2mm"), Placement::default());
+    let ring = |[left, right]: [i64; 2]| {
+        let corners = [at(left, left), at(left, right), at(right, right), at(right, left), at(left, left)];
+        line(&corners)
+    };
+    let outline = Outline::new(vec![ring([0, 30_000]), ring([10_000, 20_000])]).expect("an outline");
+    let section = cutout(&outline, &cutting(&tool, &placement, 4)).0;
+    let top = cutting(&tool, &placement, 4).tabs.top;
+    let mut within: Vec<Position> = section.moves.iter().filter_map(Move::to).collect();
+    within.retain(|to| (10_000_001..20_000_000).contains(&to.x.get()) && to.z == -top);
+    assert!(within.len() >= 2, "tabs: {within:?}");
+    for tab in within {
+        let near = [tab.x, tab.y].map(|side| (side.get() - 15_000_000).abs());
+        assert!(near[0].min(near[1]) < 3_999_000, "no corner of the way: {tab:?}");
+    }
+}
+
 #[test]
 fn tiles_repeat_every_section_before_the_next_tool() {
     let (placement, holes) = (Placement::default(), [hole(0, 0, 800, None), hole(5000, 0, 1000, None)]);

@@ -198,6 +198,56 @@ fn motions_that_break_tools_are_found() {
     assert!(judged(sunk.clone()).contains(&"rapid-in-material"), "{:?}", judged(sunk));
     let away = good.replace("X6.1500 Y0.8500", "X6.1500 Y-20");
     assert!(judged(away.clone()).contains(&"outside-stock"), "{:?}", judged(away));
+    let bulge = also("G00 X2 Y-5\nG01 Z-0.1\nG02 X2 Y-5 I0 J-50\n");
+    assert!(
+        judged(bulge.clone()).contains(&"outside-stock"),
+        "begins and ends beside it: {:?}",
+        judged(bulge)
+    );
+}
+
+#[test]
+fn a_cut_where_nobody_knows_is_an_error() {
+    let board = load(&["verify/pads-F_Cu.gbr", "verify/pads.drl"]).board;
+    for lost in ["G1 Z-2 F60\nG0 Z2\n", "G0 X1\nG1 Z-0.1 F60\nG0 Z2\n"] {
+        let text = format!("G21 G90 G94\nM3 S10000\nG0 Z2\n{lost}G0 X3 Y2\nG1 Z-2 F60\nG0 Z2\nM5\nM2\n");
+        let report = judge(&board, foreign("lost.nc", text, "drill:0.8mm", None));
+        let told = |finding: &Finding| finding.message.contains("a place that the program has not given");
+        let found = report.findings.iter().find(|finding| told(finding));
+        assert_eq!(found.map(|finding| finding.severity), Some(Severity::Error), "{lost}: {report:?}");
+    }
+}
+
+/// Into a hole of a thinner drill no rapid leads.
+#[test]
+fn a_rapid_goes_down_where_it_was_cut_as_wide() {
+    let board = load(&["verify/pads-F_Cu.gbr", "verify/pads.drl"]).board;
+    let text = |first: &str, second: &str| {
+        format!(
+            "G21 G90 G94\nM3 S10000\nG0 Z2\n(tool 1: {first})\nG0 X3 Y2\nG1 Z-2 F60\nG0 Z2\nM5\nM0\nM3 S10000\n\
+             (tool 2: {second})\nG0 X3 Y2\nG0 Z-1.9\nG1 Z-2 F60\nG0 Z2\nM5\nM2\n"
+        )
+    };
+    let judged = |first: &str, second: &str| {
+        let text = text(first, second);
+        let program = Program { file: "wide.nc".to_owned(), text, ..Program::default() };
+        names(&judge(&board, program), Severity::Error).contains(&"rapid-in-material")
+    };
+    assert!(!judged("drill:0.8mm", "drill:0.8mm"), "the same");
+    assert!(!judged("drill:1mm", "drill:0.8mm"), "a thinner one");
+    assert!(judged("drill:0.8mm", "drill:1mm"), "a thicker one");
+}
+
+#[test]
+fn a_tool_that_comes_straight_up_cuts_nothing() {
+    let board = load(&["verify/pads-F_Cu.gbr", "verify/pads.drl"]).board;
+    let judged = |up: &str| {
+        let text = text("verify/cycle.nc").replace("M05", &format!("{up}\nM05"));
+        names(&judge(&board, foreign("up.nc", text, "drill:0.8mm", None)), Severity::Info)
+    };
+    let down = "G0 X5 Y2\nG1 Z-1.8 F60\n";
+    assert!(!judged(&format!("{down}G1 Z2 F2000")).contains(&"feed-per-turn"), "up");
+    assert!(judged(&format!("{down}G1 X5.01 Z2 F20000")).contains(&"feed-per-turn"), "not straight");
 }
 
 /// The loops with another way cut after them.

@@ -81,6 +81,9 @@ fn of_a_levelled_program_its_origin_is_judged() {
     assert_eq!(judge(&[&high]).0, Some(1), "alone it is judged as along a flat one");
     let (code, told) = judge(&[&good, &level("old.nc", &text.replace("(loops)", "(other loops)"))]);
     assert_eq!((code, told.contains("[revision]")), (Some(0), true), "of another program: {told}");
+    let corner = text.lines().rfind(|line| line.starts_with("G01 X6.1500 Y3.1500")).expect("a corner");
+    let (code, told) = judge(&[&good, &level("part.nc", &text.replace(corner, ""))]);
+    assert_eq!((code, told.contains("it mills 17.1 mm where")), (Some(0), true), "a part of it: {told}");
 }
 
 #[test]

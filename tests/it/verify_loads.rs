@@ -205,8 +205,8 @@ fn code_behind_the_end_is_told() {
     // What `found` has behind it retracts.
     assert_eq!(behind("N9 (a comment)\n%\n"), [Some(12)]);
     assert_eq!(behind("G0 X5\n"), [Some(9)]);
-    assert_eq!(behind("M30\nM5\n\nO100\nG1 X2\nM99\n"), [], "a subprogram");
-    assert_eq!(behind("o100 sub\nG1 X2\no100 endsub\n"), [], "a subprogram");
+    assert_eq!(behind("M30\nM5\n\nO100\nG1 X2\nM99\n"), [Some(16)], "behind a subprogram");
+    assert_eq!(behind("o100 sub\nG1 X2\no100 endsub\n"), [Some(13)], "behind a subprogram");
 }
 
 #[test]

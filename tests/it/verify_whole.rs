@@ -113,6 +113,40 @@ fn a_spoilt_cutout_is_found_out() {
     assert_eq!(names(&weak, Severity::Warning), ["tab-thin"], "tabs of 0.15 mm: {weak:?}");
 }
 
+/// A program without comments that cuts from one place of the board to another.
+fn cut(from: Point, to: Point) -> Program {
+    let [x, y, other_x, other_y] = [from.x, from.y, to.x, to.y].map(|coordinate| format!("{coordinate:.3}"));
+    let text = format!(
+        "G21 G90 G94\nM3 S10000\nG0 Z2\nG0 X{x} Y{y}\nG1 Z-1.8 F60\nG1 X{other_x} Y{other_y}\nG0 Z2\nM5\nM2\n"
+    );
+    let cutter = Some("endmill:1mm".parse().expect("a tool"));
+    Program { file: "cut.nc".to_owned(), text, role: Some(Role::Cutout), cutter, ..Program::default() }
+}
+
+#[test]
+fn what_is_cut_beside_a_slot_is_not_cut_in_it() {
+    let mut board = BLINKER.board.clone();
+    let around = board.bounds().expect("a board").inflate(Nm::from_mm(-4));
+    let [start, _, to, corner] = around.corners();
+    let path = Way { start, segments: vec![Segment::Line { to }] };
+    board.holes.push(Hole { path, diameter: Nm::from_um(1_100), ..board.holes[0].clone() });
+    let gouged = |program: Program| {
+        let found = verify(&[program], &board, &[], &Settings::default()).expect("it can be judged").findings;
+        names(&found, Severity::Error).contains(&"board-gouged")
+    };
+    assert!(!gouged(cut(start, to)), "the slot itself");
+    let way = Vector::new(Nm::from_mm(2), Nm::ZERO);
+    assert!(gouged(cut(corner, corner + way)), "in a corner of the rectangle round it");
+}
+
+#[test]
+fn what_is_cut_out_of_a_board_without_an_outline_is_not_judged() {
+    let board = Board { outline: None, ..BLINKER.board.clone() };
+    let program = cut(Point::default(), Point::new(Nm::from_mm(5), Nm::ZERO));
+    let error = verify(&[program], &board, &[], &Settings::default()).expect_err("no outline");
+    assert_eq!(error.to_string(), "cut.nc: the board has no outline: what cuts it out cannot be judged");
+}
+
 /// Into what the board lies on, and into the table: slipped decimal points, drills that were not
 /// set to zero.
 #[test]

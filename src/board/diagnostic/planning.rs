@@ -219,6 +219,12 @@ diagnostics! {
         "the option with this pattern has no effect",
         "compare it with the names that `voromill inspect` lists";
 
+    PINS_WITHOUT_FLIP: Warning =
+        "pins-without-flip",
+        "nothing is milled with the back up",
+        "no program drills alignment holes: {alignment-holes} has no effect",
+        "leave it out, or choose what is milled from the back ({drill-side}, {cutout-side})";
+
     PLUNGE_STRAIGHT_DOWN: Warning =
         "plunge-straight-down",
         "a pocket is hardly wider than the tool",

@@ -79,6 +79,9 @@ enum Keyword {
     Label,
 }
 
+/// What ends subprograms, of LinuxCNC and of others.
+const RETURNS: [&str; 2] = ["ENDSUB", "M99"];
+
 const KEYWORDS: [(&str, Keyword); 15] = [
     ("ENDSUB", Keyword::EndSub),
     ("SUB", Keyword::Sub),
@@ -446,27 +449,32 @@ impl<'a> Flow<'a> {
         }
     }
 
-    /// A text that ends within a subprogram.
-    /// The line of the first code behind the end of the program.
-    fn behind_end(&mut self) -> Option<u32> {
-        let rest = if self.machine.listing.end.is_some() { self.at } else { self.lines.len() };
-        for at in rest..self.lines.len() {
+    /// The line of the first code behind the end of the program, or the second `%`, that belongs to
+    /// no subprogram.
+    fn behind_end(&self) -> Option<u32> {
+        let mut at = self.at;
+        while at < self.lines.len() {
             let pointer = self.pointer(at);
-            if self.is_over(pointer.source) {
-                return None;
-            }
             let mut code = Code::new(pointer);
             if o_word(&mut code).is_some() {
-                return None;
+                let returns =
+                    |line: &&str| RETURNS.iter().any(|word| line.to_ascii_uppercase().contains(word));
+                let Some(end) = self.lines[at..].iter().position(returns) else {
+                    return Some(pointer.line);
+                };
+                at += end + 1;
+                continue;
             }
             let words = code.take_while(|_| true);
             if !words.is_empty() && !words.starts_with('%') && !ENDS.contains(&words.as_str()) {
                 return Some(pointer.line);
             }
+            at += 1;
         }
         None
     }
 
+    /// A text that ends within a subprogram.
     fn finished(&self) -> Result<(), ReadError> {
         let open = self.machine.listing.end.is_none() && !self.calls.is_empty();
         let Some(last) = self.lines.len().checked_sub(1).filter(|_| open) else { return Ok(()) };

@@ -113,12 +113,23 @@ pub struct Stop {
     pub before: usize,
     /// Its line.
     pub line: u32,
-    /// Whether that is what its code is for; else nobody here knows it.
-    pub known: bool,
+    /// How sure it is that it waits.
+    pub waits: Waits,
     /// Whether it is to change the tool (M6): for one that is in already controllers do not wait.
     pub changes: bool,
     /// Whether the spindle turns meanwhile, as far as that is known.
     pub spinning: bool,
+}
+
+/// How sure it is that a code waits for a person.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Waits {
+    /// That is what it is for.
+    Surely,
+    /// M1: where somebody has switched that on; some controllers pass over it.
+    OnRequest,
+    /// Nobody here knows the code.
+    Perhaps,
 }
 
 /// Lines of some kind.
@@ -188,6 +199,8 @@ pub struct Listing {
     pub several: Option<Tally>,
     /// Its arcs by R.
     pub radius: Option<Tally>,
+    /// Arcs whose lines do not say where they end: full circles.
+    pub endless: Option<Tally>,
     /// The first line, and why, from which on places are not the numbers of the text one for one (a
     /// subprogram, an expression, a moved zero), or a feed holds for a motion as a whole; none
     /// where the text can be changed line by line.

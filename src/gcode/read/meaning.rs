@@ -7,6 +7,7 @@
 use crate::geometry::Turn;
 
 use super::frame::Plane;
+use super::listing::Waits;
 
 /// The modal group of motion.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -120,7 +121,7 @@ pub(super) enum Meaning {
     ToolChange,
     /// M61.
     SetTool,
-    Stop,
+    Stop(Waits),
     End,
     Call,
     Return,
@@ -206,7 +207,8 @@ fn of_g(key: u32) -> Meaning {
 fn of_m(key: u32) -> Meaning {
     use Meaning::{Nothing, Refused};
     match key {
-        0 | 10 | 250 | 600 | 2260 | 6000 | 6010 => Meaning::Stop,
+        0 | 250 | 600 | 2260 | 6000 | 6010 => Meaning::Stop(Waits::Surely),
+        10 => Meaning::Stop(Waits::OnRequest),
         20 | 300 => Meaning::End,
         30 => Meaning::Spindle(true),
         40 => Meaning::Backwards,

@@ -27,6 +27,6 @@ mod variables;
 
 pub use error::ReadError;
 pub use flow::read;
-pub use listing::{Coded, Dwell, Listing, Motion, Note, Place, Spindle, Stop, Tally, Way};
+pub use listing::{Coded, Dwell, Listing, Motion, Note, Place, Spindle, Stop, Tally, Waits, Way};
 pub use own_code::{without_own_code, without_unlevelled};
 pub use source::lines;

@@ -111,11 +111,20 @@ enum Way {
 
 /// How a hole is made; none where neither a drill nor the mill fits.
 fn way(hole: &Hole, settings: &Drilling<'_>) -> Option<Way> {
-    let fits = settings.mill.is_some_and(|mill| bore::fits(hole, mill, settings.tolerance));
+    let fits = settings.mill.is_some_and(|mill| fits(hole, mill, settings));
     if fits && (hole.is_slot() || is_wide(hole, settings)) {
         return Some(Way::Bored);
     }
     bit(hole, settings).map(Way::Drilled).or(fits.then_some(Way::Bored))
+}
+
+/// How much wider than a hole the mill may be at most, whatever drills may. Chosen: the usual
+/// tolerance.
+const SLACK: Nm = Nm::from_um(100);
+
+/// Whether the mill makes a hole hardly wider than it is.
+fn fits(hole: &Hole, mill: &Tool, settings: &Drilling<'_>) -> bool {
+    bore::fits(hole, mill, settings.tolerance.min(SLACK))
 }
 
 /// Whether a hole is so wide that it is to be bored though there is a drill.
@@ -126,9 +135,7 @@ fn is_wide(hole: &Hole, settings: &Drilling<'_>) -> bool {
 /// The drill for a hole: the nearest in diameter within the tolerance, the smaller of two as near.
 fn bit(hole: &Hole, settings: &Drilling<'_>) -> Option<Tool> {
     if settings.drills.is_empty() {
-        if hole.diameter > THICKEST
-            && settings.mill.is_some_and(|mill| bore::fits(hole, mill, settings.tolerance))
-        {
+        if hole.diameter > THICKEST && settings.mill.is_some_and(|mill| fits(hole, mill, settings)) {
             return None;
         }
         let diameter = as_sold(hole.diameter);

@@ -8,21 +8,27 @@
 //!          ╲▁▁▁╱ tip      there, so what it would mill must be milled.
 //! ```
 //!
-//! Distances are measured to the edges themselves, and what is milled to the motions that the text
-//! is read back as: no medial axis, no diagram, nothing of the planner.
+//! The places are a grid, and, as that is coarse on a large drawing: along the edges, just outside
+//! and where the largest disc inside that touches the edge there has its centre; and along the way
+//! of the tip. Distances are measured to the edges themselves, and what is milled to the motions
+//! that the text is read back as: no medial axis, no diagram, nothing of the planner.
 
-use crate::board::Diagnostic;
+mod places;
+
 use crate::board::diagnostic::planning;
+use crate::board::{Diagnostic, Severity};
 use rayon::prelude::*;
 
 use super::check;
 use super::cutter::{Cone, Cutter};
+use super::declared::Declared;
 use super::edges::{Edges, Spot};
+use super::followed::Followed;
 use super::report::Finding;
 use super::surface::{self, Surface};
-use super::{Error, ReadError};
-use crate::gcode::read::{self, Listing, Way};
+use super::{Error, Placement, Program, Settings};
 use crate::geometry::{Nm, Point, Polygon, Rect};
+use places::{Along, along};
 
 /// What should be carved, on the machine.
 #[derive(Clone, Debug)]
@@ -101,9 +107,9 @@ struct Off {
 ///
 /// [`Error::Read`] for a text that cannot be followed.
 pub fn carving(programs: &[Text<'_>], ideal: &Ideal<'_>) -> Result<Carved, Error> {
-    let listings = followed(programs)?;
-    let mut carved = compare(&Surface::new(&listings, surface::CHORD), ideal);
-    carved.findings.splice(0..0, harm(programs, &listings));
+    let programs = followed(programs)?;
+    let mut carved = compare(&Surface::new(&programs, surface::CHORD), ideal);
+    carved.findings.splice(0..0, harm(&programs));
     Ok(carved)
 }
 
@@ -117,71 +123,51 @@ pub fn milled(programs: &[Text<'_>]) -> Result<Surface, Error> {
 }
 
 /// What programs do, each with its tool.
-pub(super) fn followed(programs: &[Text<'_>]) -> Result<Vec<(Listing, Cutter)>, Error> {
-    let follow = |program: &Text<'_>| {
-        let failed = |reason: ReadError| Error::Read { file: program.file.to_owned(), reason };
-        let listing = read::read(&read::without_own_code(program.text)).map_err(failed)?;
-        Ok((listing, program.cutter))
+pub(super) fn followed(programs: &[Text<'_>]) -> Result<Vec<Followed>, Error> {
+    let follow = |text: &Text<'_>| {
+        let program = Program {
+            file: text.file.to_owned(),
+            text: text.text.to_owned(),
+            cutter: Some(text.cutter),
+            ..Program::default()
+        };
+        Followed::read(&program, Declared::read(text.text).mounted, Placement::default())
     };
     programs.iter().map(follow).collect()
 }
 
 /// What harms the machine or the work whatever is carved.
-pub(super) fn harm(programs: &[Text<'_>], listings: &[(Listing, Cutter)]) -> Vec<Finding> {
-    let of = |(program, (listing, cutter)): (&Text<'_>, &(Listing, Cutter))| {
-        let file = program.file.to_owned();
-        let name = move |found| Finding { program: Some(file.clone()), ..found };
-        harm_of(listing, *cutter).into_iter().map(name).collect::<Vec<_>>()
-    };
-    programs.iter().zip(listings).flat_map(of).collect()
+pub(super) fn harm(programs: &[Followed]) -> Vec<Finding> {
+    programs.iter().flat_map(harm_of).collect()
 }
 
-fn harm_of(listing: &Listing, cutter: Cutter) -> Vec<Finding> {
-    let mut findings: Vec<Finding> = Vec::new();
-    let mut say = |kind: &Diagnostic, message: &str, line: u32, at: Option<Point>| {
-        if findings.iter().all(|finding| finding.name != kind.code) {
-            let found = Finding::new(kind.code, kind.severity, message.to_owned());
-            findings.push(Finding { line: Some(line), at, ..found });
-        }
-    };
-    // Where a V-bit is deepest it is widest: near its tip it bears no feed at all.
-    let deepest = listing.motions.iter().filter_map(check::cut_depth).max();
-    for motion in &listing.motions {
-        // At the surface a trail begins and ends: a rapid there is one that was not lifted.
-        let reaches = |fits: fn(&Nm) -> bool| [motion.from.z, motion.to.z].iter().flatten().any(fits);
-        if !reaches(|&z| z <= Nm::ZERO) {
-            continue;
-        }
-        let at = motion.to.point();
-        let lifts = motion.from.point() == at && motion.to.z > motion.from.z;
-        if motion.way == Way::Rapid && !lifts {
-            say(&check::RAPID_IN_MATERIAL, "a rapid goes through what is to be carved", motion.line, at);
-        }
-        // There the tool touches a plate, too, and does not turn.
-        let cuts = reaches(|&z| z < Nm::ZERO);
-        if cuts && motion.way != Way::Rapid && motion.feed.is_none() {
-            say(&check::FEED_MISSING, "it cuts before any feed is given", motion.line, at);
-        }
-        if cuts && !motion.spindle.turns() {
-            say(&check::PLUNGE_SPINDLE_OFF, "it cuts with the spindle off", motion.line, at);
-        }
-        let fast = deepest.filter(|_| cuts && motion.way != Way::Rapid);
-        if let Some((_, message)) = fast.and_then(|deepest| check::too_fast(motion, cutter, deepest)) {
-            say(&check::FEED_PER_TURN, &message, motion.line, at);
-        }
-    }
-    if let Some(line) = listing.behind_end {
-        say(&check::CODE_AFTER_END, "it goes on behind its end: what follows was not judged", line, None);
-    }
-    if let Some(last) = listing.motions.last() {
-        if last.to.z.is_some_and(|z| z < Nm::ZERO) {
-            say(&check::TOOL_LEFT_DOWN, "it ends with the tool in the material", last.line, last.to.point());
-        }
-        if listing.spinning {
-            say(&check::SPINDLE_LEFT_ON, "it ends with the spindle on", last.line, None);
-        }
-    }
+fn harm_of(program: &Followed) -> Vec<Finding> {
+    let settings = Settings::default();
+    let mut findings = check::any(program, &settings);
+    // At the surface a trail begins and ends: a rapid there is one that was not lifted.
+    let touches = |finding: &Finding| finding.size >= Some(settings.clearance);
+    let rapids = findings.iter_mut().filter(|finding| finding.name == check::RAPID_IN_MATERIAL.code);
+    rapids.filter(|finding| touches(finding)).for_each(|finding| finding.severity = Severity::Error);
+    findings.extend(too_fast(program));
     findings
+}
+
+/// The first motion at a feed that the tool does not bear where it is deepest: there a V-bit is
+/// widest, and near its tip it bears none at all.
+fn too_fast(program: &Followed) -> Option<Finding> {
+    let cuts = || program.listing.motions.iter().filter(|motion| check::cut_depth(motion).is_some());
+    let deepest = cuts().filter_map(check::cut_depth).max()?;
+    cuts().find_map(|motion| {
+        let (step, message) = check::too_fast(motion, program.tools.at(motion.line)?, deepest)?;
+        let kind = &check::FEED_PER_TURN;
+        Some(Finding {
+            program: Some(program.file.clone()),
+            line: Some(motion.line),
+            at: motion.to.point(),
+            size: Some(step),
+            ..Finding::new(kind.code, kind.severity, message)
+        })
+    })
 }
 
 fn compare(milled: &Surface, ideal: &Ideal<'_>) -> Carved {
@@ -207,10 +193,42 @@ fn compare(milled: &Surface, ideal: &Ideal<'_>) -> Carved {
         }
         found
     };
-    let beyond = milled.beyond(around).filter(|&(_, depth)| depth > 0.0);
     let rows: Vec<Row> = (0..rows).into_par_iter().map(row).collect();
-    sum_up(rows, beyond.map(|(at, by)| Off { at, by, inside: false }), ideal)
+    let mut carved = sum_up(&rows, ideal);
+    let in_rows = |places: Vec<Along>, look: &(dyn Fn(&mut Row, Along) + Sync)| -> Vec<Row> {
+        let row = |places: &[Along]| {
+            let mut found = Row::default();
+            places.iter().for_each(|&place| look(&mut found, place));
+            found
+        };
+        places.par_chunks(IN_ROW).map(row).collect()
+    };
+    let edge =
+        in_rows(along(edges.all()), &|row, (at, way)| row.look_at_edge(at, way, milled, &edges, &limits));
+    let tip = in_rows(along(milled.ways()), &|row, (at, _)| {
+        // What lies on an edge lies on neither side of it.
+        if edges.nearest(at).0 > SAME {
+            row.look(at, edges.hold(at), milled, &edges, &limits);
+        }
+    });
+    let beyond = milled.beyond(around).filter(|&(_, depth)| depth > 0.0);
+    let beyond = beyond.map(|(at, by)| Off { at, by, inside: false });
+    let rows = || rows.iter().chain(&edge).chain(&tip);
+    carved.places = rows().map(|row| row.places).sum();
+    let errors = || rows().flat_map(|row| &row.errors).copied();
+    let mut off: Vec<Off> = rows().flat_map(|row| &row.off).copied().chain(beyond).collect();
+    carved.over = errors().chain(off.iter().map(|off| off.by)).fold(0.0, f64::max);
+    carved.under = -errors().fold(0.0, f64::min);
+    off.sort_by(|a, b| b.by.abs().total_cmp(&a.by.abs()).then(a.at.0.total_cmp(&b.at.0)));
+    carved.findings = findings(&off);
+    carved
 }
+
+/// So many places along lines are looked at in one go. Chosen.
+const IN_ROW: usize = 256;
+
+/// So far outside an edge nothing may be milled, in nanometres. Chosen: half of what is tolerated.
+const OUTSIDE: f64 = 5_000.0;
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "`as` saturates")]
 fn count(length: Nm, pitch: f64) -> u32 {
@@ -357,6 +375,26 @@ impl Row {
         }
     }
 
+    /// Looks beside a place of an edge, whose areas are on the left of its way: just outside, and
+    /// inside in the middle of the largest disc that touches it there.
+    fn look_at_edge(
+        &mut self,
+        at: Spot,
+        way: Option<Spot>,
+        milled: &Surface,
+        edges: &Edges,
+        limits: &Limits,
+    ) {
+        let Some(way) = way else { return };
+        let off = |by: f64| (at.0 - by * way.1, at.1 + by * way.0);
+        let far = edges.farthest(off(1.0), (1.0, at), limits.farthest_of(1.0), &mut self.last.way);
+        self.look(off(far), true, milled, edges, limits);
+        // Beyond a gap that is narrower lies another area.
+        if edges.nearest(off(-OUTSIDE)).0 > OUTSIDE - SAME {
+            self.look(off(-OUTSIDE), false, milled, edges, limits);
+        }
+    }
+
     /// The same beside the areas, where it is milled so deep.
     fn look_beside(&mut self, at: Spot, depth: f64, edges: &Edges, limits: &Limits) {
         let mut error = depth;
@@ -376,26 +414,17 @@ impl Row {
     }
 }
 
-fn sum_up(rows: Vec<Row>, beyond: Option<Off>, ideal: &Ideal<'_>) -> Carved {
-    let mut carved = Carved::default();
-    let (mut errors, mut off): (Vec<f64>, Vec<Off>) = (Vec::new(), beyond.into_iter().collect());
-    let mut left = 0_usize;
-    for row in rows {
-        carved.places += row.places;
-        left += row.left;
-        errors.extend(row.errors);
-        off.extend(row.off);
-    }
+/// What rows of a grid say of the whole.
+fn sum_up(rows: &[Row], ideal: &Ideal<'_>) -> Carved {
     let pitch = ideal.pitch.to_mm();
-    carved.left_mm2 = pitch * pitch * u32::try_from(left).map_or(f64::INFINITY, f64::from);
-    carved.over = errors.iter().chain(off.iter().map(|off| &off.by)).copied().fold(0.0, f64::max);
-    carved.under = -errors.iter().copied().fold(0.0, f64::min);
-    errors.iter_mut().for_each(|error| *error = error.abs());
+    let left: usize = rows.iter().map(|row| row.left).sum();
+    let mut errors: Vec<f64> = rows.iter().flat_map(|row| &row.errors).map(|error| error.abs()).collect();
     errors.sort_by(f64::total_cmp);
-    carved.p99 = errors.get(errors.len() * 99 / 100).copied().unwrap_or(0.0);
-    off.sort_by(|a, b| b.by.abs().total_cmp(&a.by.abs()).then(a.at.0.total_cmp(&b.at.0)));
-    carved.findings = findings(&off);
-    carved
+    Carved {
+        p99: errors.get(errors.len() * 99 / 100).copied().unwrap_or(0.0),
+        left_mm2: pitch * pitch * u32::try_from(left).map_or(f64::INFINITY, f64::from),
+        ..Carved::default()
+    }
 }
 
 /// A kind, which places it is said of, and what is wrong there.
@@ -404,7 +433,7 @@ type Kind = (&'static Diagnostic, fn(&Off) -> bool, &'static str);
 /// The worst places of each kind, none near another.
 fn findings(off: &[Off]) -> Vec<Finding> {
     let kinds: [Kind; 3] = [
-        (&planning::CARVED_OUTSIDE, |off| !off.inside, "it mills outside the areas"),
+        (&planning::CARVED_OUTSIDE, |off| !off.inside && off.by > 0.0, "it mills outside the areas"),
         (
             &planning::CARVED_TOO_DEEP,
             |off| off.inside && off.by > 0.0,

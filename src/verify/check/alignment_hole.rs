@@ -86,14 +86,14 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
             .as_ref()
             .is_some_and(|outline| outline.contains(middle) || edges.nearest(middle.to_f64()).0 < radius)
     };
-    let on_machine = |hole: &Drilled<'_>| hole.cut.program.placement.apply(hole.middle());
+    let on_machine = |hole: &Drilled<'_>| hole.cut.program.followed.placement.apply(hole.middle());
     let pins: Vec<Point> = holes.iter().map(on_machine).collect();
     let mut findings = Vec::new();
     let mut add = |hole: &Drilled<'_>, severity: Severity, message: String, size: Option<Nm>| {
         findings.push(Finding {
             at: Some(hole.at),
             size,
-            program: Some(hole.cut.program.file.clone()),
+            program: Some(hole.cut.program.followed.file.clone()),
             line: Some(hole.cut.swept.line),
             ..Finding::new(NAME, severity, message)
         });
@@ -126,7 +126,7 @@ fn check(programs: &[&Machining], mirror: Option<Nm>, board: &Board, settings: &
     }
     match holes.as_slice() {
         [] => findings.extend(programs.iter().map(|program| Finding {
-            program: Some(program.file.clone()),
+            program: Some(program.followed.file.clone()),
             ..Finding::new(NAME, Severity::Error, "it drills no alignment hole".to_owned())
         })),
         [only] => {

@@ -52,7 +52,7 @@ fn check(contours: &Contours<'_>, board: &Board, settings: &Settings) -> Vec<Fin
         Finding {
             at: Some(taken.at),
             size: Some(depth),
-            program: Some(taken.cut.program.file.clone()),
+            program: Some(taken.cut.program.followed.file.clone()),
             line: Some(taken.cut.swept.line),
             nets: nets.iter().cloned().collect(),
             ..Finding::new(NAME, severity, message)

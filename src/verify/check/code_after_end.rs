@@ -19,10 +19,10 @@
 //! RS274/NGC version 3 §3.6.1 for what ends a program.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found};
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 
-pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
@@ -33,14 +33,14 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     advice: Words::of("give each program a file of its own, or take the M2 or M30 in its middle out"),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(|program, _| check(program)) };
 
 const NAME: &str = "code-after-end";
 
-fn check(program: &Machining) -> Vec<Finding> {
+fn check(program: &Followed) -> Vec<Finding> {
     let wrong = |line: u32| {
         let message = "it goes on behind its end: what follows was not judged".to_owned();
         found(program, NAME, Wrong { severity: Severity::Error, message, size: None }, None, line)
     };
-    program.behind_end.map(wrong).into_iter().collect()
+    program.listing.behind_end.map(wrong).into_iter().collect()
 }

@@ -51,7 +51,7 @@ fn destroyed(sheet: &Outcome<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
     (rest.parts.is_empty() && area > 0.0).then(|| Finding {
         at: Some(sheet.copper.features[first].shape.anchor()),
         area: Some(area),
-        program: cut.map(|cut| cut.program.file.clone()),
+        program: cut.map(|cut| cut.program.followed.file.clone()),
         line: cut.map(|cut| cut.swept.line),
         nets: vec![name.clone()],
         ..Finding::new(NAME, Severity::Error, format!("nothing is left of {name}{many}"))

@@ -15,7 +15,7 @@ use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, ea
 use crate::gcode::read::{Motion, Way};
 use crate::geometry::Nm;
 use crate::verify::CutterKind;
-use crate::verify::machining::{Machining, Tools};
+use crate::verify::followed::{Followed, Tools};
 use crate::verify::report::Finding;
 
 const KIND: Diagnostic = Diagnostic {
@@ -27,14 +27,14 @@ const KIND: Diagnostic = Diagnostic {
     advice: Words::of("retract between holes, or name the end mill that it is ({tool})"),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(|program, _| check(program)) };
 
 const NAME: &str = "drill-sideways";
 
 /// A drill bends so far, or the program rounds. Chosen.
 const BENDS: Nm = Nm::from_um(50);
 
-fn check(program: &Machining) -> Vec<Finding> {
+fn check(program: &Followed) -> Vec<Finding> {
     once(each_stretch(program, NAME, |motion| wrong(motion, &program.tools)), "places")
 }
 

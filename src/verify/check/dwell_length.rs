@@ -20,7 +20,7 @@
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, often};
 use crate::gcode::read::Dwell;
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 
 const KIND: Diagnostic = Diagnostic {
@@ -34,7 +34,7 @@ const KIND: Diagnostic = Diagnostic {
     advice: Words::of("make the program for this controller ({dialect}), or write the time in its unit"),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(|program, _| check(program)) };
 
 const NAME: &str = "dwell-length";
 
@@ -47,7 +47,7 @@ const MILLISECONDS: &[&str] = &["marlin", "reprapfirmware", "klipper"];
 const LONGEST: u64 = 300_000;
 const SHORTEST: u64 = 50;
 
-fn check(program: &Machining) -> Vec<Finding> {
+fn check(program: &Followed) -> Vec<Finding> {
     let Some(controller) = program.controller.as_deref() else { return Vec::new() };
     let finding = |dwell: &Dwell| {
         let Dwell { thousandths, line, count } = *dwell;
@@ -65,5 +65,5 @@ fn check(program: &Machining) -> Vec<Finding> {
         let finding = Wrong { severity: Severity::Warning, message, size: None };
         wrong.then(|| found(program, NAME, finding, None, line))
     };
-    program.dwells.iter().filter_map(finding).collect()
+    program.listing.dwells.iter().filter_map(finding).collect()
 }

@@ -14,7 +14,7 @@
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Way};
 
-pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
@@ -24,7 +24,7 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
 };
 
 pub(super) const CHECK: Check =
-    Check { kind: &KIND, run: Run::Motion(|program, _, _| each_stretch(program, NAME, wrong)) };
+    Check { kind: &KIND, run: Run::Program(|program, _| each_stretch(program, NAME, wrong)) };
 
 const NAME: &str = "feed-missing";
 

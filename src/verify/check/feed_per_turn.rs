@@ -18,7 +18,7 @@
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, found, once, place};
 use crate::gcode::read::{Motion, Spindle};
 use crate::geometry::Nm;
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 use crate::verify::{Cutter, CutterKind};
 
@@ -31,7 +31,8 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     advice: Words::of("check F and its unit, and the spindle speed S ({feed}, {plunge}, {spindle})"),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check =
+    Check { kind: &KIND, run: Run::Motion(|program, _, _| check(&program.followed)) };
 
 const NAME: &str = "feed-per-turn";
 
@@ -43,16 +44,21 @@ const FAST: u32 = 60_000;
 /// and of firmware that has S set the duty cycle.
 const FULL: [u32; 2] = [1_000, 255];
 
-fn check(program: &Machining) -> Vec<Finding> {
-    once(program.motions.iter().filter_map(|motion| wrong(motion, program)), "motions")
+fn check(program: &Followed) -> Vec<Finding> {
+    once(program.listing.motions.iter().filter_map(|motion| wrong(motion, program)), "motions")
 }
 
-fn wrong(motion: &Motion, program: &Machining) -> Option<Finding> {
-    let depth = cut_depth(motion)?;
+fn wrong(motion: &Motion, program: &Followed) -> Option<Finding> {
+    let depth = cut_depth(motion).filter(|_| !lifts(motion))?;
     let cutter = program.tools.at(motion.line)?;
     let (step, message) = too_fast(motion, cutter, depth)?;
     let wrong = Wrong { severity: Severity::Warning, message, size: Some(step) };
     Some(found(program, NAME, wrong, place(program, motion), motion.line))
+}
+
+/// Whether it goes straight up, through what is cut already.
+fn lifts(motion: &Motion) -> bool {
+    motion.from.point() == motion.to.point() && motion.from.z < motion.to.z
 }
 
 /// How far a tool that cuts so deep goes in a turn, in words, too, where it bears that not.

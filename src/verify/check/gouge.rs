@@ -179,7 +179,7 @@ fn finding(sheet: &Sheet<'_>, gouge: &Gouge) -> Finding {
         at: Some(deepest.at),
         size: Some(Nm::from_f64(deepest.depth)),
         area: Some(*area),
-        program: Some(cut.program.file.clone()),
+        program: Some(cut.program.followed.file.clone()),
         line: Some(cut.swept.line),
         places: gouge.places.clone(),
         ..Finding::new(NAME, *severity, message)

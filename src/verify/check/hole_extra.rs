@@ -39,7 +39,7 @@ fn check(bores: &Bores<'_>, _: &Board, _: &Settings) -> Vec<Finding> {
         Finding {
             at: Some(cut.swept.shape.anchor()),
             size: Some(cut.swept.half() * 2),
-            program: Some(cut.program.file.clone()),
+            program: Some(cut.program.followed.file.clone()),
             line: Some(cut.swept.line),
             ..Finding::new(NAME, Severity::Error, format!("{how} where the board has no hole"))
         }

@@ -63,7 +63,7 @@ fn finding(sheet: &Sheet<'_>, width: &Width) -> Finding {
         nets: vec![name],
         at: Some(hit.at),
         size: Some(left),
-        program: Some(cut.program.file.clone()),
+        program: Some(cut.program.followed.file.clone()),
         line: Some(cut.swept.line),
         ..Finding::new(NAME, Severity::Warning, message)
     }

@@ -34,7 +34,7 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, 
 const NAME: &str = "mirror-image";
 
 fn check(program: &Machining) -> Vec<Finding> {
-    let message = match (program.role, program.placement.mirror) {
+    let message = match (program.role, program.followed.placement.mirror) {
         (Role::Isolation(Side::Back), None) => {
             "the back is milled as it is seen through the board, and comes out mirrored"
         }
@@ -42,7 +42,7 @@ fn check(program: &Machining) -> Vec<Finding> {
         _ => return Vec::new(),
     };
     vec![Finding {
-        program: Some(program.file.clone()),
+        program: Some(program.followed.file.clone()),
         ..Finding::new(NAME, Severity::Error, message.to_owned())
     }]
 }

@@ -46,28 +46,24 @@ mod unclear;
 mod word_not_taken;
 mod zero_differs;
 
-pub(super) use code_after_end::KIND as CODE_AFTER_END;
-pub(super) use feed_missing::KIND as FEED_MISSING;
 pub(super) use feed_per_turn::{KIND as FEED_PER_TURN, too_fast};
 pub use gouge::KIND as GOUGE;
 pub(super) use overtravel::of_text as overtravel;
 pub(super) use pass_too_deep::{KIND as PASS_TOO_DEEP, MOST as MOST_DIAMETERS};
-pub(super) use plunge_spindle_off::KIND as PLUNGE_SPINDLE_OFF;
 pub(super) use rapid_in_material::KIND as RAPID_IN_MATERIAL;
 pub(super) use revision::KIND as REVISION;
-pub(super) use spindle_left_on::KIND as SPINDLE_LEFT_ON;
-pub(super) use tool_left_down::KIND as TOOL_LEFT_DOWN;
 
 use rustc_hash::FxHashMap;
 
 use crate::board::diagnostic::Stage;
 use crate::board::{Board, Diagnostic, Shape, Words};
 use crate::gcode::read::{Motion, Way};
-use crate::geometry::{self, Nm, Point};
+use crate::geometry::{self, Arc, Nm, Point, Rect};
 
 use super::bores::{Bore, Bores, Made};
 use super::contours::Contours;
 use super::drilled::Drilled;
+use super::followed::Followed;
 use super::machining::Machining;
 use super::outcome::Outcome;
 use super::report::Finding;
@@ -82,7 +78,9 @@ pub struct Check {
 
 /// What a check is shown.
 enum Run {
-    /// The motions of any program.
+    /// A program, whatever it mills.
+    Program(fn(&Followed, &Settings) -> Vec<Finding>),
+    /// A program that mills a board.
     Motion(fn(&Machining, &Board, &Settings) -> Vec<Finding>),
     /// A side, milled.
     Isolation(fn(&Outcome<'_>, &Settings) -> Vec<Finding>),
@@ -156,11 +154,20 @@ pub fn of(name: &str) -> Option<&'static Check> {
     ALL.iter().find(|check| check.kind.code == name)
 }
 
-/// The checks of any program.
-pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
+/// The checks of any program, whatever it mills.
+pub(super) fn any(program: &Followed, settings: &Settings) -> Vec<Finding> {
     each(|check| {
-        let Run::Motion(run) = check else { return None };
-        Some(run(program, board, settings))
+        let Run::Program(run) = check else { return None };
+        Some(run(program, settings))
+    })
+}
+
+/// Those, and the checks of any program that mills a board.
+pub(super) fn motion(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
+    each(|check| match check {
+        Run::Program(run) => Some(run(&program.followed, settings)),
+        Run::Motion(run) => Some(run(program, board, settings)),
+        _ => None,
     })
 }
 
@@ -236,7 +243,7 @@ fn hole(
 ) -> Finding {
     Finding {
         at: Some(bore.hole.path.start),
-        program: Some(made.cut.program.file.clone()),
+        program: Some(made.cut.program.followed.file.clone()),
         line: Some(made.cut.swept.line),
         ..Finding::new(name, severity, message)
     }
@@ -251,17 +258,18 @@ struct Wrong {
 }
 
 /// Where a motion ends on the board, or else begins; none where that is not known.
-fn place(program: &Machining, motion: &Motion) -> Option<Point> {
+fn place(program: &Followed, motion: &Motion) -> Option<Point> {
     motion.to.point().or_else(|| motion.from.point()).map(|p| program.placement.undo(p))
 }
 
 /// The findings of a check of single motions, as [`stretches`] has them.
 fn each_stretch(
-    program: &Machining,
+    program: &Followed,
     name: &'static str,
     mut wrong: impl FnMut(&Motion) -> Option<Wrong>,
 ) -> Vec<Finding> {
     let all = program
+        .listing
         .motions
         .iter()
         .map(|motion| wrong(motion).map(|wrong| (wrong, place(program, motion), motion.line)));
@@ -271,7 +279,7 @@ fn each_stretch(
 /// The findings of what may be wrong each with a place and a line, in order: one for each stretch
 /// that is wrong without a break, as large as the largest.
 fn stretches(
-    program: &Machining,
+    program: &Followed,
     name: &'static str,
     all: impl Iterator<Item = Option<(Wrong, Option<Point>, u32)>>,
 ) -> Vec<Finding> {
@@ -294,7 +302,7 @@ fn stretches(
 
 /// The finding of what is wrong in a line of a program.
 fn found(
-    program: &Machining,
+    program: &Followed,
     name: &'static str,
     Wrong { severity, message, size }: Wrong,
     at: Option<Point>,
@@ -330,6 +338,16 @@ fn once(findings: impl IntoIterator<Item = Finding>, things: &str) -> Vec<Findin
 /// How many `things` a sentence is about, behind it; nothing for one.
 fn often(count: u32, things: &str) -> String {
     if count > 1 { format!(" ({count} {things})") } else { String::new() }
+}
+
+/// The rectangle that a motion stays in; none where it ends nobody knows where.
+fn bounds(motion: &Motion) -> Option<Rect> {
+    let to = motion.to.point()?;
+    let from = motion.from.point().unwrap_or(to);
+    Some(match motion.way {
+        Way::Arc { center, turn } => Arc { start: from, end: to, center, turn }.bounds(),
+        Way::Rapid | Way::Feed => Rect::new(from, from).union(Rect::new(to, to)),
+    })
 }
 
 /// How deep below the surface a motion cuts; none for a rapid, and for what stays above.

@@ -66,7 +66,7 @@ fn crowded(sheet: &Outcome<'_>) -> Option<Finding> {
     let message = format!("slivers were not checked beside {cuts}: hundreds of others run near each");
     Some(Finding {
         at: Some(cut.swept.shape.anchor()),
-        program: Some(cut.program.file.clone()),
+        program: Some(cut.program.followed.file.clone()),
         line: Some(cut.swept.line),
         ..Finding::new(NAME, Severity::Warning, message)
     })

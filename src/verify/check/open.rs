@@ -54,7 +54,7 @@ fn open(sheet: &Sheet<'_>, net: NetId, rest: &Rest) -> Option<Finding> {
         at: Some(at),
         size: width.map(Nm::from_f64),
         area: Some(next.iter().map(|part| part.area).sum()),
-        program: cut.map(|cut| cut.program.file.clone()),
+        program: cut.map(|cut| cut.program.followed.file.clone()),
         line: cut.map(|cut| cut.swept.line),
         ..Finding::new(NAME, Severity::Error, message)
     })

@@ -12,7 +12,7 @@
 //!
 //! Stock that is smaller than it was told.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, bounds, each_stretch};
 use crate::board::Board;
 use crate::geometry::{Nm, Rect};
 use crate::verify::Settings;
@@ -33,15 +33,16 @@ pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(check) };
 const NAME: &str = "outside-stock";
 
 fn check(program: &Machining, board: &Board, settings: &Settings) -> Vec<Finding> {
-    let laid = |bounds: Rect| Rect::around(bounds.corners().map(|corner| program.placement.apply(corner)));
+    let laid =
+        |bounds: Rect| Rect::around(bounds.corners().map(|corner| program.followed.placement.apply(corner)));
     let Some(stock) = board.bounds().and_then(laid).map(|laid| laid.inflate(settings.margin)) else {
         return Vec::new();
     };
-    each_stretch(program, NAME, |motion| {
+    each_stretch(&program.followed, NAME, |motion| {
         let below = [motion.from.z, motion.to.z].into_iter().flatten().any(|z| z < Nm::ZERO);
-        let to = motion.to.point()?;
-        let (min, max) = (stock.min(), stock.max());
-        let beyond = [min.x - to.x, to.x - max.x, min.y - to.y, to.y - max.y].into_iter().max()?;
+        let way = bounds(motion)?;
+        let past = [stock.min() - way.min(), way.max() - stock.max()];
+        let beyond = past.into_iter().flat_map(|past| [past.x, past.y]).max()?;
         let message = || format!("a cut {beyond:.3} mm beyond the stock");
         (below && beyond > Nm::ZERO).then(|| Wrong {
             severity: Severity::Error,

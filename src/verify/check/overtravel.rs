@@ -15,7 +15,7 @@
 use super::{Check, Diagnostic, Run, Severity, Stage, Words};
 use crate::gcode::read::{self, Motion, Way};
 use crate::geometry::{Arc, Nm};
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 use crate::verify::{Error, Program, Settings};
 
@@ -28,21 +28,20 @@ const KIND: Diagnostic = Diagnostic {
     advice: Words::of("turn the board ({rotate} 90deg), or mill fewer tiles at once ({tile})"),
 };
 
-pub(super) const CHECK: Check =
-    Check { kind: &KIND, run: Run::Motion(|program, _, settings| check(program, settings)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(check) };
 
 const NAME: &str = "overtravel";
 
 /// How low and how high a motion goes along an axis.
 type Axis = fn(&Motion) -> Option<(Nm, Nm)>;
 
-fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
+fn check(program: &Followed, settings: &Settings) -> Vec<Finding> {
     let Some(travel) = settings.travel else { return Vec::new() };
     let found = |beyond: Beyond<'_>| Finding {
         at: beyond.motion.to.point().map(|p| program.placement.undo(p)),
         ..beyond.finding(&program.file)
     };
-    all(&program.motions, travel).map(found).collect()
+    all(&program.listing.motions, travel).map(found).collect()
 }
 
 /// The same of a program's text, without places on the board.

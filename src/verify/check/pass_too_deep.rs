@@ -46,7 +46,7 @@ const WITHIN: Nm = Nm::from_um(2);
 
 fn check(program: &Machining) -> Vec<Finding> {
     let deep = |swept: &Swept| {
-        let cutter = program.tools.at(swept.line)?;
+        let cutter = program.followed.tools.at(swept.line)?;
         let sideways = !matches!(swept.shape, Shape::Disc { .. });
         let most = cutter.tip * MOST;
         (cutter.kind == CutterKind::EndMill && sideways && swept.depth > most).then_some(most)
@@ -71,7 +71,7 @@ fn check(program: &Machining) -> Vec<Finding> {
         let wrong = Wrong { severity: Severity::Warning, message, size: Some(taken) };
         Some((wrong, Some(swept.shape.at(0.5)), swept.line))
     };
-    once(stretches(program, NAME, program.swept.iter().enumerate().map(wrong)), "places")
+    once(stretches(&program.followed, NAME, program.swept.iter().enumerate().map(wrong)), "places")
 }
 
 /// Where the front of the cutter is in the middle of a way and at its end.

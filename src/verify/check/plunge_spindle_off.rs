@@ -18,7 +18,7 @@
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, each_stretch};
 use crate::gcode::read::{Motion, Spindle};
 
-pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Error,
@@ -29,7 +29,7 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
 
 pub(super) const CHECK: Check = Check {
     kind: &KIND,
-    run: Run::Motion(|program, _, _| {
+    run: Run::Program(|program, _| {
         let controller = program.controller.as_deref().filter(|name| AT_ZERO.contains(name));
         each_stretch(program, NAME, |motion| wrong(motion, controller))
     }),

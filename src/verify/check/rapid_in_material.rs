@@ -1,7 +1,8 @@
 //! # What it checks
 //!
-//! No rapid goes sideways below the surface, or down into it but for where it was cut before, as in
-//! pecking. One that goes sideways less than the clearance above the surface is a warning.
+//! No rapid goes sideways below the surface, or down into it but for where it was cut before as
+//! wide as the tool, as in pecking. One that goes sideways less than the clearance above the
+//! surface is a warning.
 //!
 //! # Why
 //!
@@ -17,7 +18,7 @@ use rustc_hash::FxHashMap;
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, each_stretch};
 use crate::gcode::read::{Motion, Place, Way};
 use crate::geometry::{Nm, Point};
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 
 pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
@@ -30,22 +31,26 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
 };
 
 pub(super) const CHECK: Check =
-    Check { kind: &KIND, run: Run::Motion(|program, _, settings| check(program, settings.clearance)) };
+    Check { kind: &KIND, run: Run::Program(|program, settings| check(program, settings.clearance)) };
 
 const NAME: &str = "rapid-in-material";
 
-fn check(program: &Machining, clearance: Nm) -> Vec<Finding> {
-    // How deep it was cut where motions end.
-    let mut cut: FxHashMap<Point, Nm> = FxHashMap::default();
+fn check(program: &Followed, clearance: Nm) -> Vec<Finding> {
+    // How deep it was cut where motions end, and how wide by the last tool that did.
+    let mut cut: FxHashMap<Point, (Nm, Nm)> = FxHashMap::default();
     each_stretch(program, NAME, |motion| {
+        let width = |z: Nm| program.tools.at(motion.line).map_or(Nm::ZERO, |tool| tool.width_at(-z));
         if motion.way == Way::Rapid {
-            let hollow = motion.to.point().and_then(|p| cut.get(&p)).copied();
+            let fits = |&(bottom, wide): &(Nm, Nm)| (width(bottom) <= wide).then_some(bottom);
+            let hollow = motion.to.point().and_then(|p| cut.get(&p)).and_then(fits);
             return wrong(motion, clearance, hollow);
         }
         for place in [motion.from, motion.to] {
             if let Some((p, z)) = place.point().zip(place.z.filter(|z| *z < Nm::ZERO)) {
-                let deepest = cut.entry(p).or_insert(z);
-                *deepest = z.min(*deepest);
+                let made = cut.entry(p).or_insert((z, width(z)));
+                if z < made.0 || width(made.0) != made.1 {
+                    *made = (z, width(z));
+                }
             }
         }
         None

@@ -67,7 +67,7 @@ fn check(sheet: &Outcome<'_>) -> Vec<Finding> {
     vec![Finding {
         at: Some(at),
         size: Some(Nm::from_f64(again)),
-        program: Some(cut.program.file.clone()),
+        program: Some(cut.program.followed.file.clone()),
         line: Some(cut.swept.line),
         ..Finding::new(NAME, Severity::Info, message)
     }]

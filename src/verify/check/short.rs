@@ -121,7 +121,7 @@ fn finding(sheet: &Sheet<'_>, bridge: &Bridge, count: usize) -> Finding {
     Finding {
         at: Some(bridge.at),
         size: bridge.width,
-        program: cause.map(|cut| cut.program.file.clone()),
+        program: cause.map(|cut| cut.program.followed.file.clone()),
         line: cause.map(|cut| cut.swept.line),
         ..Finding::new(NAME, Severity::Error, format!("{a} and {b} are joined by a bridge{wide}{of}"))
     }

@@ -141,7 +141,7 @@ fn finding(sheet: &Sheet<'_>, strip: &[Thin]) -> Finding {
     Finding {
         at: Some(at),
         size: Some(width),
-        program: Some(cut.program.file.clone()),
+        program: Some(cut.program.followed.file.clone()),
         line: Some(cut.swept.line),
         ..Finding::new(NAME, Severity::Warning, format!("a sliver of copper {width:.3} mm wide is left"))
     }

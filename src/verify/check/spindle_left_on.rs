@@ -17,10 +17,10 @@
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, once};
 use crate::gcode::read::{Place, Stop};
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 
-pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
@@ -29,22 +29,26 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     advice: Words::of("switch the spindle off (M5) before each pause and at the end"),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(|program, _| check(program)) };
 
 const NAME: &str = "spindle-left-on";
 
-fn check(program: &Machining) -> Vec<Finding> {
+fn check(program: &Followed) -> Vec<Finding> {
     let finding = |before: usize, line: Option<u32>, message: &str| {
-        let last = program.motions[..before].last();
+        let last = program.listing.motions[..before].last();
         let line = line.or(last.map(|motion| motion.line)).unwrap_or(1);
         let at = last.map_or(Place::default(), |motion| motion.to).point();
         let wrong = Wrong { severity: Severity::Warning, message: message.to_owned(), size: None };
         found(program, NAME, wrong, at.map(|p| program.placement.undo(p)), line)
     };
     let pause = |stop: &Stop| finding(stop.before, Some(stop.line), "it waits while the spindle turns");
-    let pauses = program.stops.iter().filter(|stop| stop.spinning).map(pause);
-    let ends = program.spinning.then(|| {
-        finding(program.motions.len(), None, "it ends, without M5, M2 or M30: the spindle goes on turning")
+    let pauses = program.listing.stops.iter().filter(|stop| stop.spinning).map(pause);
+    let ends = program.listing.spinning.then(|| {
+        finding(
+            program.listing.motions.len(),
+            None,
+            "it ends, without M5, M2 or M30: the spindle goes on turning",
+        )
     });
     once(pauses.chain(ends), "times")
 }

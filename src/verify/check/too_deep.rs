@@ -52,16 +52,17 @@ const FAR_BELOW: Nm = Nm::from_mm(10);
 fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
     match program.role {
         Role::Isolation(_) => {
-            let most = (usual(&program.motions) * 2).max(UNREMARKABLE).min(settings.board / 2);
-            each_stretch(program, NAME, |motion| {
+            let most =
+                (usual(&program.followed.listing.motions) * 2).max(UNREMARKABLE).min(settings.board / 2);
+            each_stretch(&program.followed, NAME, |motion| {
                 let depth = cut_depth(motion).filter(|depth| *depth > most)?;
                 let message = format!("a cut {depth:.3} mm deep, where {most:.3} mm is enough");
                 Some(Wrong { severity: Severity::Error, message, size: Some(depth) })
             })
         }
-        Role::Drilling | Role::Cutout => each_stretch(program, NAME, |motion| {
+        Role::Drilling | Role::Cutout => each_stretch(&program.followed, NAME, |motion| {
             let depth = cut_depth(motion)?;
-            let point = program.tools.at(motion.line).map_or(Nm::ZERO, |cutter| cutter.point());
+            let point = program.followed.tools.at(motion.line).map_or(Nm::ZERO, |cutter| cutter.point());
             let below = Some(depth - point - settings.board).filter(|below| *below > BELOW)?;
             let message = format!("a cut {depth:.3} mm deep, in a board of {:.3} mm", settings.board);
             let severity = if below > FAR_BELOW { Severity::Error } else { Severity::Warning };

@@ -12,12 +12,12 @@
 //! Pauses that are macros of the controller.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, place};
-use crate::gcode::read::Stop;
+use crate::gcode::read::{Stop, Waits};
 use crate::geometry::Nm;
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 
-pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
+const KIND: Diagnostic = Diagnostic {
     code: NAME,
     stage: Stage::Verification,
     severity: Severity::Warning,
@@ -26,19 +26,19 @@ pub(in crate::verify) const KIND: Diagnostic = Diagnostic {
     advice: Words::of("retract before each pause and at the end"),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(|program, _| check(program)) };
 
 const NAME: &str = "tool-left-down";
 
-fn check(program: &Machining) -> Vec<Finding> {
+fn check(program: &Followed) -> Vec<Finding> {
     let finding = |before: usize, line: Option<u32>, does: &str| {
-        let last = program.motions[..before].last()?;
+        let last = program.listing.motions[..before].last()?;
         let depth = -last.to.z.filter(|z| *z < Nm::ZERO)?;
         let message = format!("it {does} with the tool {depth:.3} mm below the surface");
         let wrong = Wrong { severity: Severity::Warning, message, size: Some(depth) };
         Some(found(program, NAME, wrong, place(program, last), line.unwrap_or(last.line)))
     };
     let pause = |stop: &Stop| finding(stop.before, Some(stop.line), "waits");
-    let pauses = program.stops.iter().filter(|stop| stop.known).filter_map(pause);
-    pauses.chain(finding(program.motions.len(), None, "ends")).collect()
+    let pauses = program.listing.stops.iter().filter(|stop| stop.waits != Waits::Perhaps).filter_map(pause);
+    pauses.chain(finding(program.listing.motions.len(), None, "ends")).collect()
 }

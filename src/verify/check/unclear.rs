@@ -1,7 +1,8 @@
 //! # What it checks
 //!
 //! What the text of a program leaves open, and how it was taken: no unit, no speed of the spindle,
-//! no height before it moves sideways, places of the machine, words that were passed over.
+//! no height before it moves sideways, places of the machine, words that were passed over. That it
+//! cuts where nobody knows is an error.
 //!
 //! # Why
 //!
@@ -12,9 +13,9 @@
 //! What the controller remembers from before the program. What the motion depends on, and nobody
 //! can know, is no finding: such a program is not judged.
 
-use super::{Check, Diagnostic, Run, Severity, Stage, Words, often};
+use super::{Check, Diagnostic, Run, Severity, Stage, Words, cut_depth, often};
 use crate::gcode::read::{Motion, Note, Spindle, Way};
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 
 const KIND: Diagnostic = Diagnostic {
@@ -28,11 +29,11 @@ const KIND: Diagnostic = Diagnostic {
     ),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(|program, _| check(program)) };
 
 const NAME: &str = "unclear";
 
-fn check(program: &Machining) -> Vec<Finding> {
+fn check(program: &Followed) -> Vec<Finding> {
     let of = |severity: Severity, line: u32, message: String| Finding {
         program: Some(program.file.clone()),
         line: Some(line),
@@ -43,9 +44,15 @@ fn check(program: &Machining) -> Vec<Finding> {
         of(severity, *line, message.clone() + &often(*count, "times"))
     };
     let unstated = |motion: &&Motion| motion.way != Way::Rapid && motion.spindle == Spindle::Unstated;
-    let knob = program.motions.iter().find(unstated).map(|motion| {
+    let knob = program.listing.motions.iter().find(unstated).map(|motion| {
         let what = "the spindle turns at a speed that the program does not give: set it by hand";
         of(Severity::Info, motion.line, what.to_owned())
     });
-    program.notes.iter().map(note).chain(knob).collect()
+    // Straight down it goes wherever it is.
+    let lost = |motion: &&Motion| motion.to.point().is_none() && cut_depth(motion).is_some();
+    let lost = program.listing.motions.iter().find(lost).map(|motion| {
+        let what = "it cuts at a place that the program has not given: that cut was not judged";
+        of(Severity::Error, motion.line, what.to_owned())
+    });
+    program.listing.notes.iter().map(note).chain(knob).chain(lost).collect()
 }

@@ -22,7 +22,7 @@
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, often};
 use crate::gcode::read::{Coded, Tally};
-use crate::verify::machining::Machining;
+use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 use crate::verify::stream::Feature;
 
@@ -35,7 +35,7 @@ const KIND: Diagnostic = Diagnostic {
     advice: Words::of("make the program for this controller ({dialect}), or take the code out"),
 };
 
-pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Motion(|program, _, _| check(program)) };
+pub(super) const CHECK: Check = Check { kind: &KIND, run: Run::Program(|program, _| check(program)) };
 
 const NAME: &str = "word-not-taken";
 
@@ -80,6 +80,7 @@ const RULES: &[Rule] = &[
     },
     Rule { controllers: &["klipper"], codes: These("G20"), does: STOPS },
     Rule { controllers: &["fluidnc", "marlin"], codes: These("M6"), does: PASSES },
+    Rule { controllers: &["grbl"], codes: These("M1"), does: PASSES },
     Rule {
         controllers: &["tinyg", "g2core", "smoothieware", "klipper"],
         codes: These("M0 M1 M6"),
@@ -90,11 +91,21 @@ const RULES: &[Rule] = &[
         codes: These("G91.1"),
         does: "takes it for G91, and all that follows for steps",
     },
+    Rule {
+        controllers: &["marlin", "smoothieware"],
+        codes: These("G90.1"),
+        does: "takes it for G90, and counts I and J from where the arc begins",
+    },
+    Rule {
+        controllers: &["klipper", "reprapfirmware"],
+        codes: These("G90.1"),
+        does: "does not take it, and counts I and J from where the arc begins",
+    },
     Rule { controllers: &["reprapfirmware"], codes: These("M0"), does: "ends the job there" },
     Rule { controllers: &["marlin", "reprapfirmware"], codes: These("M30"), does: "deletes a file there" },
 ];
 
-fn check(program: &Machining) -> Vec<Finding> {
+fn check(program: &Followed) -> Vec<Finding> {
     let Some(controller) = &program.controller else { return Vec::new() };
     let rules = || RULES.iter().filter(|rule| rule.controllers.contains(&controller.as_str()));
     let finding = |code: &Coded| {
@@ -103,7 +114,7 @@ fn check(program: &Machining) -> Vec<Finding> {
         let message = format!("{name}: {controller} {}{}", rule.does, often(code.count, "times"));
         Some(found(program, NAME, Wrong { severity: Severity::Error, message, size: None }, None, code.line))
     };
-    let codes = program.codes.iter().filter_map(finding);
+    let codes = program.listing.codes.iter().filter_map(finding);
     codes.chain(lines(program, controller)).collect()
 }
 
@@ -174,6 +185,18 @@ const LINES: &[LineRule] = &[
         what: "a line with an O-word",
         does: STOPS,
     },
+    LineRule {
+        controllers: &["grbl", "linuxcnc"],
+        feature: Feature::Nested,
+        what: "a comment within a comment",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl"],
+        feature: Feature::Endless,
+        what: "an arc without X and Y",
+        does: STOPS,
+    },
     LineRule { controllers: &["grbl"], feature: Feature::Percent, what: "a line with `%`", does: STOPS },
     LineRule {
         controllers: &["grbl"],
@@ -183,7 +206,7 @@ const LINES: &[LineRule] = &[
     },
 ];
 
-fn lines(program: &Machining, controller: &str) -> Vec<Finding> {
+fn lines(program: &Followed, controller: &str) -> Vec<Finding> {
     let rules = LINES.iter().filter(|rule| rule.controllers.contains(&controller));
     let of_rule = |rule: &LineRule| {
         let of_it = program.features.iter().find(|(feature, _)| *feature == rule.feature);

@@ -45,16 +45,16 @@ fn check(programs: &[Machining]) -> Vec<Finding> {
     };
     // Of a place that was found, the line about which it is mirrored is any.
     let found = [
-        of(Zero::Given, |program| program.placement.mirror.is_none()),
-        of(Zero::Given, |program| program.placement.mirror.is_some()),
+        of(Zero::Given, |program| program.followed.placement.mirror.is_none()),
+        of(Zero::Given, |program| program.followed.placement.mirror.is_some()),
     ];
     let lies = |programs: &[&Machining], tolerance: Nm| {
-        among(programs, |a, b| lies_elsewhere(a.placement, b.placement, tolerance))
+        among(programs, |a, b| lies_elsewhere(a.followed.placement, b.followed.placement, tolerance))
     };
     let told = lies(&of(Zero::Told, |_| true), Nm::ZERO);
     // Of those that are not mirrored nobody knows about which line they would be.
-    let mirrored = of(Zero::Told, |program| program.placement.mirror.is_some());
-    let flipped = among(&mirrored, |a, b| flipped_elsewhere(a.placement, b.placement));
+    let mirrored = of(Zero::Told, |program| program.followed.placement.mirror.is_some());
+    let flipped = among(&mirrored, |a, b| flipped_elsewhere(a.followed.placement, b.followed.placement));
     let found = found.iter().flat_map(|programs| lies(programs, FOUND));
     let all: Vec<&Machining> = programs.iter().collect();
     let systems = among(&all, |a, b| {
@@ -67,7 +67,8 @@ fn check(programs: &[Machining]) -> Vec<Finding> {
 /// The coordinate systems of a program: G54 is that of controllers when they start.
 fn systems(program: &Machining) -> String {
     let is_system = |code: &&Coded| code.letter == 'G' && (540..=599).contains(&code.key);
-    let mut names: Vec<String> = program.codes.iter().filter(is_system).map(Coded::to_string).collect();
+    let mut names: Vec<String> =
+        program.followed.listing.codes.iter().filter(is_system).map(Coded::to_string).collect();
     names.sort_unstable();
     if names.is_empty() { "G54".to_owned() } else { names.join(", ") }
 }
@@ -81,9 +82,9 @@ fn among(
     // The first of those that most agree with.
     let Some(usual) = programs.iter().rev().max_by_key(|program| agree(program)) else { return Vec::new() };
     let finding = |program: &&Machining| {
-        let message = format!("{} {}", differs(usual, program)?, usual.file);
+        let message = format!("{} {}", differs(usual, program)?, usual.followed.file);
         Some(Finding {
-            program: Some(program.file.clone()),
+            program: Some(program.followed.file.clone()),
             ..Finding::new(NAME, Severity::Warning, message)
         })
     };

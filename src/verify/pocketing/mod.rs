@@ -22,7 +22,7 @@ use rayon::prelude::*;
 use crate::board::diagnostic::planning;
 use crate::board::polarity::offset;
 use crate::board::{Diagnostic, FLATTEN, Severity};
-use crate::gcode::read::{Listing, Motion};
+use crate::gcode::read::Motion;
 use crate::geometry::{Nm, Point, Polygon, coarse};
 
 use super::Error;
@@ -30,6 +30,7 @@ use super::carving::{Text, followed, harm};
 use super::check;
 use super::cutter::Cutter;
 use super::edges::Edges;
+use super::followed::Followed;
 use super::report::Finding;
 use super::surface::stretches;
 
@@ -177,26 +178,26 @@ impl Swept {
 ///
 /// [`Error::Read`] for a text that cannot be followed.
 pub fn pocketing(programs: &[Text<'_>], floor: &Floor<'_>) -> Result<Pocketed, Error> {
-    let listings = followed(programs)?;
+    let followed = followed(programs)?;
     let mut steps = Vec::new();
-    for (program, (listing, cutter)) in listings.iter().enumerate() {
-        all_steps(listing, cutter, program, &mut steps);
+    for (number, (followed, text)) in followed.iter().zip(programs).enumerate() {
+        all_steps(followed, &text.cutter, number, &mut steps);
     }
     let swept = Swept::by(&steps);
     let edges = Edges::new(floor.areas);
-    let pocketed = Pocketed { findings: harm(programs, &listings), ..Pocketed::default() };
+    let pocketed = Pocketed { findings: harm(&followed), ..Pocketed::default() };
     let mut judge = Judge { floor, programs, pocketed };
     judge.overcut(&steps, &edges);
     judge.depths(&steps, &swept, &edges);
     judge.residue(&swept.level);
-    judge.plunges(&listings);
+    judge.plunges(&followed);
     judge.engagement(&steps, &swept);
     Ok(judge.pocketed)
 }
 
 /// The steps of a program below the surface.
-fn all_steps(listing: &Listing, cutter: &Cutter, program: usize, steps: &mut Vec<Step>) {
-    for motion in &listing.motions {
+fn all_steps(followed: &Followed, cutter: &Cutter, program: usize, steps: &mut Vec<Step>) {
+    for motion in &followed.listing.motions {
         for (from, to, depths) in stretches(motion, CHORD) {
             steps.push(Step {
                 ends: [from, to],
@@ -337,15 +338,15 @@ impl Judge<'_> {
     }
 
     /// How often the first tool comes down, and how often it need.
-    fn plunges(&mut self, listings: &[(Listing, Cutter)]) {
+    fn plunges(&mut self, followed: &[Followed]) {
         let comes_down = |motion: &&Motion| {
             let (Some(from), Some(to)) = (motion.from.z, motion.to.z) else { return false };
             from >= Nm::ZERO && to < Nm::ZERO
         };
-        let count = |listing: &Listing| listing.motions.iter().filter(comes_down).count();
-        self.pocketed.plunges = listings.iter().map(|(listing, _)| count(listing)).sum();
+        let count = |program: &Followed| program.listing.motions.iter().filter(comes_down).count();
+        self.pocketed.plunges = followed.iter().map(count).sum();
         let Some(Plunges { levels, layered, passes }) = self.floor.plunges else { return };
-        let first = listings.first().map_or(0, |(listing, _)| count(listing));
+        let first = followed.first().map_or(0, count);
         let made = (first / passes.max(1)).saturating_sub(layered);
         // Each piece that the tool fits into needs one, however often its width rises and falls.
         let pieces = pieces(self.floor.areas, levels);

@@ -9,7 +9,7 @@ use crate::gcode::read::listing::{Tally, Way};
 use crate::gcode::read::meaning::Distance;
 use crate::geometry::{Nm, Point, Turn};
 
-use super::place::Target;
+use super::place::{AXES, Target};
 use super::{Machine, Run};
 
 /// The letters of the centre.
@@ -48,6 +48,9 @@ impl Machine {
         let across = run.block.get(CENTERS[normal]).filter(|word| word.value != 0.0);
         if let Some(word) = across {
             return Err(run.error(word, "expected the centre in the plane of the arc"));
+        }
+        if ![a, b].iter().any(|&axis| run.block.get(AXES[axis]).is_some()) {
+            Tally::count(&mut self.listing.endless, run.line());
         }
         let (start, end) = ([from_a.to_f64(), from_b.to_f64()], [to_a.to_f64(), to_b.to_f64()]);
         let center = match run.block.get('R') {

@@ -14,7 +14,7 @@ use super::block::{Block, Word};
 use super::error::ReadError;
 use super::expression::index;
 use super::frame::{Axis, Plane};
-use super::listing::{Listing, Place, Spindle, Stop, Tally};
+use super::listing::{Listing, Place, Spindle, Stop, Tally, Waits};
 use super::meaning::{Distance, FeedMode, Meaning, Mode, Special, meaning};
 use super::source::Pointer;
 use super::variables::Variables;
@@ -112,13 +112,6 @@ struct Orders {
     ask: Option<Ask>,
 }
 
-/// How sure it is that a code waits for a person.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Waits {
-    Surely,
-    Perhaps,
-}
-
 /// A line that is being run.
 #[derive(Clone, Copy)]
 struct Run<'a> {
@@ -168,10 +161,10 @@ impl Machine {
             self.variables.set(name.clone(), *value);
         }
         if let Some(waits) = orders.stop {
-            let (before, known) = (self.listing.motions.len(), waits == Waits::Surely);
-            let spinning = known && !orders.change_tool && self.modal.spinning;
+            let before = self.listing.motions.len();
+            let spinning = waits != Waits::Perhaps && !orders.change_tool && self.modal.spinning;
             let changes = orders.change_tool;
-            self.listing.stops.push(Stop { before, line: run.line(), known, changes, spinning });
+            self.listing.stops.push(Stop { before, line: run.line(), waits, changes, spinning });
         }
         if orders.ask == Some(Ask::End) {
             self.listing.end = Some(run.line());
@@ -272,7 +265,7 @@ impl Machine {
                     self.modal.spinning = starts(30) || starts(40);
                 }
                 Meaning::SetTool => orders.change_tool = true,
-                Meaning::Stop => orders.stop = Some(Waits::Surely),
+                Meaning::Stop(waits) => orders.stop = Some(waits),
                 Meaning::End => orders.ask = Some(Ask::End),
                 Meaning::Call => orders.ask = Some(Ask::Call),
                 Meaning::Return => orders.ask = Some(Ask::Return),
@@ -311,6 +304,11 @@ impl Machine {
             let what = match ((order.letter, order.key), value('P'), value('S'), value('H')) {
                 (('G', 640), Some(p), ..) if p * self.modal.unit as f64 > ROUNDED => {
                     format!("G64 P{p} lets the machine round corners by that much")
+                }
+                (('G', 640), None, ..) => {
+                    let what = "G64 without P: the machine rounds corners as far as its set-up lets it";
+                    self.listing.note(false, run.line(), what);
+                    continue;
                 }
                 (('G', 430), .., Some(h)) if self.tool.is_some() && index(h) != self.tool => {
                     format!("G43 H{h} takes the length of another tool than the one that is in")

@@ -15,10 +15,11 @@
 mod clip;
 mod fit;
 mod floor;
+mod rims;
 mod room;
 mod rows;
 
-use crate::geometry::{Nm, Path, Point};
+use crate::geometry::{Nm, Path, Point, Segment};
 use crate::toolpath::head::Head;
 use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::trails::{Link, Step, walk};
@@ -28,6 +29,7 @@ use crate::voronoi::medial::MedialAxis;
 use super::isolate::retract_worth;
 use clip::{Pass, Piece, Tip};
 use fit::Fit;
+use rims::Rims;
 
 pub use floor::Floor;
 
@@ -94,24 +96,29 @@ fn passes(axis: &MedialAxis, settings: &Carving<'_>) -> Vec<Pass> {
     lows.zip(&levels).map(|(low, &high)| Pass { low, high, ..whole }).collect()
 }
 
-/// A line of the pass on the machine, with the depth at each vertex.
+/// A line of the pass on the machine, with the height at each vertex.
 #[derive(Clone)]
 struct Line {
     path: Path,
-    depths: Vec<Nm>,
-    /// Whether it lies on the floor, as deep as may be.
+    levels: Vec<Level>,
+}
+
+/// How deep a vertex is, and whether it lies on the floor, as deep as may be.
+#[derive(Clone, Copy, PartialEq)]
+struct Level {
+    depth: Nm,
     on_floor: bool,
 }
 
 impl Line {
     fn reverse(&mut self) {
         self.path = self.path.reversed();
-        self.depths.reverse();
+        self.levels.reverse();
     }
 
     fn append(&mut self, mut next: Self) {
         self.path.segments.append(&mut next.path.segments);
-        self.depths.extend(next.depths.drain(1..));
+        self.levels.extend(next.levels.drain(1..));
     }
 
     /// Turned so that a closed one begins with the segment of this index.
@@ -119,15 +126,15 @@ impl Line {
         if entry > 0 {
             self.path.start = self.path.segments[entry - 1].to();
             self.path.segments.rotate_left(entry);
-            self.depths.pop();
-            self.depths.rotate_left(entry);
-            self.depths.push(self.depths[0]);
+            self.levels.pop();
+            self.levels.rotate_left(entry);
+            self.levels.push(self.levels[0]);
         }
     }
 
     /// Where it may begin and end: anywhere if it is closed.
     fn stretch(&self) -> Stretch {
-        let is_loop = self.path.is_closed() && self.depths.first() == self.depths.last();
+        let is_loop = self.path.is_closed() && self.levels.first() == self.levels.last();
         let entries = if is_loop { self.path.steps().map(|(from, _)| from).collect() } else { Vec::new() };
         Stretch { from: self.path.start, to: self.path.end(), entries }
     }
@@ -139,25 +146,46 @@ fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
     let tolerance = within(pass.flank).max(within(STEEP).min(CLOSE));
     let fit = Fit { tolerance, flank: pass.flank };
     let mut nodes = axis.nodes.len();
+    let mut new_node = || {
+        nodes += 1;
+        u32::try_from(nodes - 1).expect("below 2³² nodes")
+    };
     let (mut ways, mut links): (Vec<Line>, Vec<Link>) = (Vec::new(), Vec::new());
+    let mut add = |path: &Path, levels: Vec<Level>, ends: Option<(u32, u32)>| {
+        let seconds = path.length() / settings.tool.feed.nm_per_second();
+        links.push(Link { ends, seconds, must: true });
+        ways.push(Line { path: settings.placement.path(path), levels });
+    };
+    let mut rims = settings.floor.map(Rims::new);
     for way in &axis.ways {
         for Piece { course, whole } in pass.pieces(&way.course, way.ends.is_none()) {
-            let Some((path, depths)) = fit.path(&course) else { continue };
-            let mut end = |at: usize| {
-                way.ends.filter(|_| whole[at]).map_or_else(
-                    || {
-                        nodes += 1;
-                        u32::try_from(nodes - 1).expect("below 2³² nodes")
-                    },
-                    |ends| ends[at],
-                )
-            };
+            let Some((mut path, depths)) = fit.path(&course) else { continue };
+            let mut levels: Vec<Level> =
+                depths.into_iter().map(|depth| Level { depth, on_floor: false }).collect();
             let is_ring = way.ends.is_none() && whole == [true, true];
-            let ends = (!is_ring).then(|| (end(0), end(1)));
-            let seconds = path.length() / settings.tool.feed.nm_per_second();
-            links.push(Link { ends, seconds, must: true });
-            ways.push(Line { path: settings.placement.path(&path), depths, on_floor: false });
+            let mut ends = [0, 0];
+            for at in if is_ring { 0..0 } else { 0..2 } {
+                // Led on to the rim that it comes to.
+                let mut on_rim =
+                    || rims.as_mut()?.corner(if at == 0 { path.start } else { path.end() }, &mut new_node);
+                ends[at] = match way.ends.filter(|_| whole[at]) {
+                    Some(ends) => ends[at],
+                    None => match on_rim() {
+                        Some((corner, node)) => {
+                            lead_on(&mut path, &mut levels, at, corner, pass);
+                            node
+                        }
+                        None => new_node(),
+                    },
+                };
+            }
+            add(&path, levels, (!is_ring).then_some((ends[0], ends[1])));
         }
+    }
+    for part in rims.into_iter().flat_map(Rims::parts) {
+        let level = Level { depth: Nm::from_f64(pass.high), on_floor: true };
+        let ends = part.ends.or_else(|| (!part.path.is_closed()).then(|| (new_node(), new_node())));
+        add(&part.path, vec![level; part.path.segments.len() + 1], ends);
     }
     let retract = retract_worth(settings.heights, settings.tool, settings.machine);
     let trails = walk(nodes, &links, retract);
@@ -168,15 +196,26 @@ fn lines(axis: &MedialAxis, pass: &Pass, settings: &Carving<'_>) -> Vec<Line> {
         (tip.depth > pass.low && !pass.is_left(pass.depth(place.clearance))).then(|| {
             let start = settings.placement.point(Point::from_f64(tip.at.0, tip.at.1));
             let path = Path { start, segments: Vec::new() };
-            Line { path, depths: vec![Nm::from_f64(tip.depth)], on_floor: false }
+            Line { path, levels: vec![Level { depth: Nm::from_f64(tip.depth), on_floor: false }] }
         })
     }));
-    lines.extend(settings.floor.iter().flat_map(|floor| &floor.rims).map(|rim| {
-        let path = settings.placement.path(rim);
-        let depths = vec![Nm::from_f64(pass.high); path.segments.len() + 1];
-        Line { path, depths, on_floor: true }
-    }));
     lines
+}
+
+/// Leads an end of a piece, its beginning or its end, on to a corner of a rim.
+fn lead_on(path: &mut Path, levels: &mut Vec<Level>, at: usize, corner: Point, pass: &Pass) {
+    let level = Level { depth: Nm::from_f64(pass.high), on_floor: true };
+    let last = levels.len() - 1;
+    if [path.start, path.end()][at] == corner {
+        levels[at * last] = level;
+    } else if at == 0 {
+        let to = std::mem::replace(&mut path.start, corner);
+        path.segments.insert(0, Segment::Line { to });
+        levels.insert(0, level);
+    } else {
+        path.segments.push(Segment::Line { to: corner });
+        levels.push(level);
+    }
 }
 
 fn joined(ways: &[Line], trail: &[Step]) -> Option<Line> {
@@ -209,22 +248,22 @@ fn mill(head: &mut Head, mut lines: Vec<Line>, start: Point, settings: &Carving<
             line.reverse();
         }
         let stays_down = was_on_floor
-            && line.on_floor
+            && line.levels[0].on_floor
             && at.distance(line.path.start) <= longest
             && settings.floor.is_some_and(|floor| {
                 let [from, to] = [at, line.path.start].map(|p| settings.placement.undo(p));
                 floor.room.leads(from, to)
             });
         if stays_down {
-            head.feed_to(Position::over(line.path.start, -line.depths[0]), settings.tool.feed);
+            head.feed_to(Position::over(line.path.start, -line.levels[0].depth), settings.tool.feed);
         } else {
             head.over(line.path.start);
-            head.plunge(line.depths[0]);
+            head.plunge(line.levels[0].depth);
         }
-        for (segment, &depth) in line.path.segments.iter().zip(&line.depths[1..]) {
-            head.cut(segment, depth, settings.tool.feed);
+        for (segment, level) in line.path.segments.iter().zip(&line.levels[1..]) {
+            head.cut(segment, level.depth, settings.tool.feed);
         }
-        (at, was_on_floor) = (line.path.end(), line.on_floor);
+        (at, was_on_floor) = (line.path.end(), line.levels.last().is_some_and(|level| level.on_floor));
     }
     at
 }

@@ -27,9 +27,10 @@ pub enum TabPlaces<'a> {
     At(&'a [Point]),
 }
 
-/// How far the way may turn within a tab and half its width to both sides, in radians: at best
-/// about 20°; where a contour has no place for that, more. Chosen.
-const STRAIGHT: [f64; 3] = [0.35, 1.0, f64::INFINITY];
+/// How far the way may turn, in radians, within how many openings to both sides of a tab's middle:
+/// at best about 20° within the tab and half its width beside it; where a contour has no place for
+/// that, more, and then within the tab alone. Chosen.
+const STRAIGHT: [(f64, f64); 5] = [(0.35, 1.0), (1.0, 1.0), (0.35, 0.5), (1.0, 0.5), (f64::INFINITY, 0.5)];
 /// How many places along a contour are looked at. Chosen: one for each 0.1 mm of a common board.
 const PLACES: u32 = 2000;
 /// How many beginnings of an even spread are tried. Chosen.
@@ -59,11 +60,10 @@ pub(super) fn room(length: f64, opening: f64) -> u32 {
 /// The middles of `count` tabs at some of the places `own`, ascending distances along the ring;
 /// fewer where no more find room.
 pub(super) fn spread(ring: &Ring, own: &[f64], count: u32, opening: f64) -> Vec<f64> {
-    let turns: Vec<(f64, f64)> =
-        own.iter().map(|&distance| (distance, ring.turn_around(distance, opening))).collect();
     let mut best = Vec::new();
-    for limit in STRAIGHT {
-        let places: Vec<f64> = turns.iter().filter(|place| place.1 < limit).map(|place| place.0).collect();
+    for (most, openings) in STRAIGHT {
+        let is_straight = |place: &f64| ring.turn_around(*place, openings * opening) < most;
+        let places: Vec<f64> = own.iter().copied().filter(is_straight).collect();
         let found = evenest(ring, own, &places, count, opening);
         if found.len() > best.len() {
             best = found;
