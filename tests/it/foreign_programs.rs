@@ -189,6 +189,13 @@ fn arcs_run_in_all_planes_and_several_times_round() {
 }
 
 #[test]
+fn what_is_restored_is_all_but_the_kind_of_motion() {
+    let text = "G21 G90 G0 X0 Y0 Z1\nM70\nG1 G91 G20 X1 F10\nM72\nX2\nM2\n";
+    let listing = assert_ends(text, &[[0.0, 0.0, 1.0], [25.4, 0.0, 1.0], [2.0, 0.0, 1.0]]);
+    assert_eq!(listing.motions[2].way, Way::Feed, "the G1 of before M72 goes on");
+}
+
+#[test]
 fn curves_run_through_their_points() {
     let weights = "G21 G90 G0 X1 Y0 Z0\nG5.2 X1 Y1 P0.7071067811865476 F60\nX0 Y1 P1\nG5.3\n";
     let listing = read(weights).expect("followed");

@@ -270,7 +270,11 @@ impl Machine {
                 Meaning::Call => orders.ask = Some(Ask::Call),
                 Meaning::Return => orders.ask = Some(Ask::Return),
                 Meaning::Save { .. } => self.saved = Some(self.modal),
-                Meaning::Restore => self.modal = self.saved.unwrap_or(self.modal),
+                // LinuxCNC restores all but the motion mode ("M70 Save Modal State").
+                Meaning::Restore => {
+                    let mode = self.modal.mode;
+                    self.modal = self.saved.map_or(self.modal, |saved| Modal { mode, ..saved });
+                }
                 Meaning::Nothing => {}
                 Meaning::Unknown => {
                     let tenth =
