@@ -246,6 +246,18 @@ fn cycles_increments_inches_and_modal_lines_are_levelled_as_they_are_written() {
             "N10 G90\nN20 G0 Z2\nN30 G0X1Y1\nN40 G1Z-1F100(down)\nN50 M2",
             "N10 G90\nN20 G0 Z2\nN30 G0X1Y1\nN40 G1Z-0.746F100(down)\nN50 M2",
         ),
+        (
+            "G90\nG0 Z5\nX0 Y0\nM70\nG91 G20\nG0 Z-.1\nM72\nG0 Z0.5\nG1 Z-0.1 F100\nX10\nG0 Z5\nM2",
+            "G90\nG0 Z5\nX0 Y0\nM70\nG91 G20\nG0 Z-0.09\nM72\nG0 Z0.754\nG1 Z0.154 F100\nX10\nG0 Z5\nM2",
+        ),
+        (
+            "(end mill (long) X1)\nM118 G0 Z-9 (so)\nM117 Z-9\nM84 X Y\nG90\nG0 Z2\nX0 Y0\n/2 G1 F9 z - 1(down (slow) Z3)\nM2",
+            "(end mill (long) X1)\nM118 G0 Z-9 (so)\nM117 Z-9\nM84 X Y\nG90\nG0 Z2\nX0 Y0\n/2 G1 F9 Z-0.746(down (slow) Z3)\nM2",
+        ),
+        (
+            "%\n$X\nG90\nG0 Z2\nX0 Y0\nG1 Z-1 F9 (down\n%\nZ[",
+            "%\n$X\nG90\nG0 Z2\nX0 Y0\nG1 Z-0.746 F9 (down\n%\nZ[",
+        ),
     ];
     for (text, expected) in cases {
         assert_eq!(levelled(text, &flat).text, expected, "a surface a quarter of a millimetre high");
@@ -414,6 +426,9 @@ fn programs_that_cannot_be_levelled_say_why_and_where() {
     let timed = error("G90\nG0 Z2\nX0 Y0\nG1 Z-1 F1\nG93\nG1 X5 F2\n");
     assert!(matches!(timed, LevelError::Indirect { line: 6, .. }), "{timed}");
     assert!(timed.to_string().contains("the time of a motion (G93)"), "{timed}");
+    let summed = error("G90\nG0 Z2*74\nX0 Y0\nG1 Z-1 F1*71\n");
+    assert!(matches!(summed, LevelError::Indirect { line: 4, .. }), "{summed}");
+    assert!(summed.to_string().contains("a checksum"), "{summed}");
     let inside = level("G90\nG0 Z2\nX0 Y0\nG1 Z-1 F1\nX16.9\n", &map, &Levelling::default());
     assert!(inside.is_ok(), "within the margin: {inside:?}");
     assert!(matches!(HeightMap::through(&[]), Err(MapError::Few { columns: 0, rows: 0 })), "nothing touched");

@@ -5,14 +5,14 @@
 
 use std::fmt::Write as _;
 
-use super::words::{Pointer, Word, words};
-use crate::gcode::read::{Listing, Motion, Place, Way, lines, read, without_unlevelled};
-use crate::geometry::{Arc, Nm, Point};
+use super::words::{Word, words};
+use crate::gcode::read::{Counting, Listing, Motion, Place, Way, lines, read, without_unlevelled};
+use crate::geometry::{Arc, Nm, Point, Turn};
 
 use super::course::Course;
+use super::digit::{decimals, digit};
 use super::error::LevelError;
 use super::height_map::HeightMap;
-use super::modal::{Modal, arc_word};
 
 /// How a program is levelled.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -84,12 +84,16 @@ pub fn level(text: &str, map: &HeightMap, levelling: &Levelling) -> Result<Level
     }
     let mut leveller = Leveller::new(map, levelling, safe);
     let mut motions = listing.motions.chunk_by(|a, b| a.line == b.line).peekable();
+    let mut countings = listing.countings.iter().peekable();
     for ((number, source), ours) in (1_u32..).zip(lines(text)).zip(lines(&ours)) {
         let own = motions.next_if(|own| own[0].line == number).unwrap_or_default();
         if listing.end.is_some_and(|end| number > end) || ours != source {
             leveller.lines.push(source.to_owned());
         } else {
-            leveller.line(Pointer { line: number, source }, own)?;
+            if let Some((_, counting)) = countings.next_if(|(line, _)| *line == number) {
+                leveller.counting = *counting;
+            }
+            leveller.line(Line { number, source }, own)?;
         }
     }
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
@@ -126,12 +130,21 @@ fn travel(listing: &Listing) -> Nm {
     listing.motions.iter().filter_map(level).min().or_else(highest).unwrap_or(Nm::ZERO)
 }
 
+/// A line of the program.
+#[derive(Clone, Copy)]
+struct Line<'a> {
+    /// From 1.
+    number: u32,
+    source: &'a str,
+}
+
 struct Leveller<'a> {
     map: &'a HeightMap,
     slope: f64,
     levelling: &'a Levelling,
     safe: Nm,
-    modal: Modal,
+    /// As the reader has it.
+    counting: Counting,
     /// Where the levelled program is; in x and y, at the end of a line, where the program is.
     at: Place,
     /// Z and R of the last drilling cycle.
@@ -149,7 +162,7 @@ impl<'a> Leveller<'a> {
             slope: map.slope(),
             levelling,
             safe,
-            modal: Modal::default(),
+            counting: Counting::default(),
             at: Place::default(),
             cycle: None,
             noted: levelling.note.is_empty(),
@@ -158,19 +171,27 @@ impl<'a> Leveller<'a> {
         }
     }
 
-    fn line(&mut self, pointer: Pointer<'_>, motions: &[Motion]) -> Result<(), LevelError> {
-        let words = words(pointer)?;
+    fn line(&mut self, line: Line<'_>, motions: &[Motion]) -> Result<(), LevelError> {
+        if motions.is_empty() && self.noted {
+            self.lines.push(line.source.to_owned());
+            return Ok(());
+        }
+        let words = words(line.number, line.source)?;
         self.note(&words);
-        self.modal.update(&words);
         match motions {
-            [] => self.lines.push(pointer.source.to_owned()),
-            [_] => self.motion(pointer, &words, motions)?,
-            turns if turns.iter().all(is_arc) => self.motion(pointer, &words, turns)?,
-            cycle if self.modal.cycle => self.drill(pointer, &words, cycle)?,
+            [] => self.lines.push(line.source.to_owned()),
+            [_] => self.motion(line, &words, motions)?,
+            turns if turns.iter().all(is_arc) => self.motion(line, &words, turns)?,
+            cycle if self.counting.cycle => self.drill(line, &words, cycle)?,
             _ => {
                 let what = "several motions of one line that are no drilling cycle";
-                return Err(LevelError::Indirect { line: pointer.line, what });
+                return Err(LevelError::Indirect { line: line.number, what });
             }
+        }
+        let summed = words.iter().any(|word| word.letter == '*');
+        if summed && self.lines.last().is_some_and(|made| made != line.source) {
+            let what = "a checksum, which would be wrong once its line changes";
+            return Err(LevelError::Indirect { line: line.number, what });
         }
         Ok(())
     }
@@ -186,12 +207,7 @@ impl<'a> Leveller<'a> {
     }
 
     /// One motion, or the turns of an arc that goes round several times (P).
-    fn motion(
-        &mut self,
-        pointer: Pointer<'_>,
-        words: &[Word<'_>],
-        motions: &[Motion],
-    ) -> Result<(), LevelError> {
+    fn motion(&mut self, line: Line<'_>, words: &[Word<'_>], motions: &[Motion]) -> Result<(), LevelError> {
         let mut ends = Vec::with_capacity(motions.len());
         for motion in motions {
             ends.extend(self.ends(motion)?);
@@ -205,11 +221,10 @@ impl<'a> Leveller<'a> {
             let z = end.z;
             let value = z.filter(|_| z != motion.to.z || self.at.z != motion.from.z);
             let changed = value.and_then(|value| self.change(words, 'Z', value, self.at.z));
-            self.lines.push(
-                changed.map_or_else(|| pointer.source.to_owned(), |change| change.made(pointer.source)),
-            );
+            self.lines
+                .push(changed.map_or_else(|| line.source.to_owned(), |change| change.made(line.source)));
         } else {
-            self.pieces(pointer.source, words, motion, &ends);
+            self.pieces(line.source, words, motion, &ends);
         }
         self.at = Place { z: ends.last().and_then(|end| end.z), ..motion.to };
         Ok(())
@@ -221,7 +236,7 @@ impl<'a> Leveller<'a> {
         let rise = |before: Place, after: Place| before.z.zip(after.z).map(|(before, after)| after - before);
         let first = rise(motions[0].from, self.at);
         let alike = |rise: Option<Nm>| match first.zip(rise) {
-            Some((first, rise)) => (rise - first).abs().get() <= self.modal.digit(),
+            Some((first, rise)) => (rise - first).abs().get() <= digit(self.counting.unit),
             None => first == rise,
         };
         motions.iter().zip(ends).all(|(motion, end)| alike(rise(motion.to, *end)))
@@ -293,7 +308,8 @@ impl<'a> Leveller<'a> {
         let (word, center) = match motion.way {
             Way::Rapid => ("G0", None),
             Way::Feed => ("G1", None),
-            Way::Arc { center, turn } => (arc_word(turn), Some(center)),
+            Way::Arc { center, turn: Turn::Clockwise } => ("G2", Some(center)),
+            Way::Arc { center, turn: Turn::CounterClockwise } => ("G3", Some(center)),
         };
         self.at = Place { z: self.at.z, ..motion.from };
         for (index, &end) in ends.iter().enumerate() {
@@ -325,35 +341,31 @@ impl<'a> Leveller<'a> {
             }
         }
         if let (Some(center), Some(at)) = (center, self.at.point()) {
-            let from = if self.modal.absolute_centers { Point::default() } else { at };
+            let from = if self.counting.absolute_centers { Point::default() } else { at };
             _ = write!(text, " I{} J{}", self.number(center.x - from.x), self.number(center.y - from.y));
         }
         text
     }
 
     /// A drilling cycle: its bottom and its R follow the surface over the hole.
-    fn drill(
-        &mut self,
-        pointer: Pointer<'_>,
-        words: &[Word<'_>],
-        motions: &[Motion],
-    ) -> Result<(), LevelError> {
-        let (line, last) = (pointer.line, motions[motions.len() - 1].to);
-        let hole = last.point().ok_or(LevelError::Nowhere { line, safe: self.safe })?;
+    fn drill(&mut self, line: Line<'_>, words: &[Word<'_>], motions: &[Motion]) -> Result<(), LevelError> {
+        let last = motions[motions.len() - 1].to;
+        let nowhere = LevelError::Nowhere { line: line.number, safe: self.safe };
+        let hole = last.point().ok_or(nowhere)?;
         let feed = motions.iter().find(|motion| motion.way == Way::Feed);
         let retract = feed.and_then(|motion| motion.from.z);
         let bottom = motions.iter().filter_map(|motion| motion.to.z).min();
         let (Some(retract), Some(bottom)) = (retract.or(bottom), bottom) else {
-            self.lines.push(pointer.source.to_owned());
+            self.lines.push(line.source.to_owned());
             return Ok(());
         };
         let mut given = (bottom, retract);
         if self.is_low(Some(bottom)) {
-            self.stay_inside(&Course::Line { from: hole, to: hole }, line)?;
+            self.stay_inside(&Course::Line { from: hole, to: hole }, line.number)?;
             self.done.levelled += 1;
             given = (self.levelled(hole, bottom), self.levelled(hole, retract));
         }
-        let mut text = pointer.source.to_owned();
+        let mut text = line.source.to_owned();
         let (bottom_before, retract_before) = self.cycle.unzip();
         let z = self.change(words, 'Z', given.0, bottom_before);
         let r = self.change(words, 'R', given.1, retract_before);
@@ -375,15 +387,15 @@ impl<'a> Leveller<'a> {
         let text = format!("{letter}{}", self.number(counted));
         match words.iter().find(|word| word.letter == letter) {
             Some(word) => {
-                let written = word.number.times(self.modal.unit).map(Nm::new);
-                let from = word.column as usize - 1;
+                let written = word.number.times(self.counting.unit).map(Nm::new);
+                let from = word.from;
                 (written != Some(counted)).then(|| Change { from, to: from + word.text.len(), text })
             }
             None if at == Some(value) => None,
             None => {
                 let after = words.iter().rfind(|word| matches!(word.letter, 'X' | 'Y' | 'Z'));
                 let after = after.or(words.last())?;
-                let from = after.column as usize - 1 + after.text.len();
+                let from = after.from + after.text.len();
                 Some(Change { from, to: from, text: format!(" {text}") })
             }
         }
@@ -391,7 +403,7 @@ impl<'a> Leveller<'a> {
 
     /// A coordinate as the program counts: from zero, or from where it is.
     fn counted(&self, value: Nm, at: Option<Nm>) -> Nm {
-        if self.modal.incremental && !self.modal.cycle { value - at.unwrap_or(Nm::ZERO) } else { value }
+        if self.counting.incremental && !self.counting.cycle { value - at.unwrap_or(Nm::ZERO) } else { value }
     }
 
     fn snapped(&self, p: Point) -> Point {
@@ -400,14 +412,14 @@ impl<'a> Leveller<'a> {
 
     /// To the last decimal that is written.
     fn round(&self, length: Nm) -> Nm {
-        let digit = self.modal.digit();
+        let digit = digit(self.counting.unit);
         Nm::new((length.get() + digit / 2).div_euclid(digit) * digit)
     }
 
     /// In the program's unit, without zeros that say nothing.
     fn number(&self, length: Nm) -> String {
-        let decimals = self.modal.decimals();
-        let digits = self.round(length).get() / self.modal.digit();
+        let decimals = decimals(self.counting.unit);
+        let digits = self.round(length).get() / digit(self.counting.unit);
         let scale = 10_i64.pow(if decimals == 4 { 4 } else { 5 });
         let sign = if digits < 0 { "-" } else { "" };
         let text = format!("{sign}{}.{:0decimals$}", digits.abs() / scale, digits.abs() % scale);
@@ -432,7 +444,7 @@ impl Change {
 fn without<'a>(line: &str, gone: impl Iterator<Item = &'a Word<'a>>, text: &str) -> String {
     let (mut out, mut at, mut placed) = (String::new(), 0, false);
     for word in gone {
-        let from = word.column as usize - 1;
+        let from = word.from;
         out.push_str(&line[at..from]);
         if !placed {
             out.push_str(text);

@@ -22,11 +22,11 @@
 //! tenth longer.
 
 mod course;
+mod digit;
 mod error;
 mod format;
 mod height_map;
 mod leveller;
-mod modal;
 mod outlier;
 mod touch;
 mod words;

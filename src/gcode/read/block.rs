@@ -54,33 +54,51 @@ impl Block {
 
     /// Reads what is left of a line.
     pub(super) fn read(code: &mut Code<'_>, scope: &mut dyn Scope) -> Result<Self, ReadError> {
-        let mut block = Self { optional: code.take(b'/'), ..Self::default() };
+        let mut block = Self::begin(code);
+        while let Some(byte) = code.peek() {
+            if !block.next(code, scope, byte)? {
+                break;
+            }
+        }
+        Ok(block)
+    }
+
+    /// What stands before the words of a line.
+    pub(super) fn begin(code: &mut Code<'_>) -> Self {
+        let block = Self { optional: code.take(b'/'), ..Self::default() };
         if block.optional {
             // `/2`: one of several switches.
             code.take_while(|byte| byte.is_ascii_digit());
         }
-        while let Some(byte) = code.peek() {
-            let column = code.column();
-            match byte {
-                b'#' => block.assign(code, scope)?,
-                b'*' => block.check(code)?,
-                b'@' | b'^' => {
-                    code.take(byte);
-                    let word = Word { value: block.number(code, scope)?, column };
-                    let polar = if byte == b'@' { &mut block.radius } else { &mut block.angle };
-                    if polar.replace(word).is_some() {
-                        return Err(code.pointer.error(column, "the word is twice in the line"));
-                    }
-                }
-                b'A'..=b'Z' => {
-                    if !block.word(code, scope, byte)? {
-                        break;
-                    }
-                }
-                _ => return Err(code.error("expected a letter and a number, such as X1.5")),
-            }
+        block
+    }
+
+    /// Reads what is next and begins with this byte; false where that is no more words.
+    pub(super) fn next(
+        &mut self,
+        code: &mut Code<'_>,
+        scope: &mut dyn Scope,
+        byte: u8,
+    ) -> Result<bool, ReadError> {
+        if self.tells_text() {
+            return Ok(false);
         }
-        Ok(block)
+        let column = code.column();
+        match byte {
+            b'#' => self.assign(code, scope)?,
+            b'*' => self.check(code)?,
+            b'@' | b'^' => {
+                code.take(byte);
+                let word = Word { value: self.number(code, scope)?, column };
+                let polar = if byte == b'@' { &mut self.radius } else { &mut self.angle };
+                if polar.replace(word).is_some() {
+                    return Err(code.pointer.error(column, "the word is twice in the line"));
+                }
+            }
+            b'A'..=b'Z' => return self.word(code, scope, byte),
+            _ => return Err(code.error("expected a letter and a number, such as X1.5")),
+        }
+        Ok(true)
     }
 
     /// A letter and its value; false where a text for the operator follows.
@@ -93,7 +111,6 @@ impl Block {
             return Ok(true);
         }
         if !begins && self.shows_text() {
-            code.finish();
             return Ok(false);
         }
         if !begins && !matches!(code.peek(), Some(b'A'..=b'Z')) {
@@ -108,12 +125,6 @@ impl Block {
                 self.orders.push(order(letter, number, column).ok_or_else(|| {
                     code.pointer.error(column, format!("expected the number of a {letter} code"))
                 })?);
-                // Marlin's message, its file names, its host commands.
-                if letter == 'M'
-                    && matches!(self.orders.last(), Some(Order { key: 1170 | 1180 | 230 | 280 | 9500, .. }))
-                {
-                    code.finish();
-                }
             }
             'N' => {}
             'A' | 'B' | 'C' | 'U' | 'V' | 'W' | 'E' => self.others.push(letter),
@@ -163,6 +174,13 @@ impl Block {
     fn names_axes(&self) -> bool {
         let order = self.orders.last().map(|order| (order.letter, order.key));
         matches!(order, Some(('G', 280) | ('M', 170 | 180 | 840)))
+    }
+
+    /// Whether what follows the words so far is a text in any case: Marlin's messages, its file
+    /// names, its host commands.
+    fn tells_text(&self) -> bool {
+        let order = self.orders.last().map(|order| (order.letter, order.key));
+        matches!(order, Some(('M', 1170 | 1180 | 230 | 280 | 9500)))
     }
 
     /// Whether what follows the words so far is a text for the operator (Marlin's `M0 insert the

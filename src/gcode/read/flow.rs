@@ -14,7 +14,7 @@ use super::error::ReadError;
 use super::expression::{bracketed, index, value};
 use super::listing::Listing;
 use super::machine::{Ask, Machine};
-use super::source::{Code, Pointer, lines};
+use super::source::{AT_ONCE, Code, Pointer, lines};
 use super::variables::Name;
 
 /// How many lines are run beside those of the text. Chosen: some seconds of work.
@@ -178,7 +178,7 @@ impl<'a> Flow<'a> {
         if source.is_empty() || source.starts_with('%') {
             return Ok(());
         }
-        if source.starts_with(['$', '?', '!', '~']) {
+        if source.starts_with(AT_ONCE) {
             return self.command(pointer, source);
         }
         let mut code = Code::new(pointer);

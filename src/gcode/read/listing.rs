@@ -158,6 +158,26 @@ pub struct Dwell {
     pub count: u32,
 }
 
+/// How the numbers of a line count.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Counting {
+    /// Nanometres in a unit (G20, G21).
+    pub unit: i64,
+    /// Whether coordinates count from where the tool is (G91).
+    pub incremental: bool,
+    /// Whether the centres of arcs count from the zero (G90.1).
+    pub absolute_centers: bool,
+    /// Whether coordinates are those of a drilling cycle.
+    pub cycle: bool,
+}
+
+/// As a program begins.
+impl Default for Counting {
+    fn default() -> Self {
+        Self { unit: 1_000_000, incremental: false, absolute_centers: false, cycle: false }
+    }
+}
+
 /// Something that the text leaves open or that was passed over, and what was assumed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Note {
@@ -193,6 +213,8 @@ pub struct Listing {
     pub notes: Vec<Note>,
     /// Its codes, in the order of their first occurrence.
     pub codes: Vec<Coded>,
+    /// How numbers count, and the line from which on they do, in the order in which it is run.
+    pub countings: Vec<(u32, Counting)>,
     /// Its lines with coordinates and no code.
     pub bare: Option<Tally>,
     /// Its lines with several codes.
@@ -230,6 +252,13 @@ impl Listing {
         match self.dwells.iter_mut().find(|dwell| dwell.thousandths == thousandths) {
             Some(dwell) => dwell.count += 1,
             None => self.dwells.push(Dwell { thousandths, line, count: 1 }),
+        }
+    }
+
+    /// How the numbers of a line count, where that is not as before.
+    pub(super) fn counts(&mut self, line: u32, counting: Counting) {
+        if self.countings.last().is_none_or(|(_, before)| *before != counting) {
+            self.countings.push((line, counting));
         }
     }
 

@@ -18,6 +18,9 @@ pub fn lines(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
+/// How lines begin that a controller takes at once, and that are no part of the program.
+pub(super) const AT_ONCE: [char; 4] = ['$', '?', '!', '~'];
+
 /// How many characters of an offending text an error shows. Chosen: more than any word, less than a
 /// line of a terminal.
 const SHOWN: usize = 40;
@@ -117,9 +120,10 @@ impl<'a> Code<'a> {
         text.parse::<f64>().ok()
     }
 
-    /// Drops the rest.
-    pub(super) fn finish(&mut self) {
-        self.at = self.bytes.len();
+    /// What was taken since it was as `before`, and where in the line that ends.
+    pub(super) fn since(&self, before: &Self) -> (&[u8], usize) {
+        let end = self.columns[..self.at].last().map_or(0, |column| usize::try_from(*column).unwrap_or(0));
+        (&self.bytes[before.at..self.at], end)
     }
 
     /// The column of what is next; of the end, that behind the line.

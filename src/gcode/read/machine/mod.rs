@@ -14,7 +14,7 @@ use super::block::{Block, Word};
 use super::error::ReadError;
 use super::expression::index;
 use super::frame::{Axis, Plane};
-use super::listing::{Listing, Place, Spindle, Stop, Tally, Waits};
+use super::listing::{Counting, Listing, Place, Spindle, Stop, Tally, Waits};
 use super::meaning::{Distance, FeedMode, Meaning, Mode, Special, meaning};
 use super::source::Pointer;
 use super::variables::Variables;
@@ -55,6 +55,17 @@ impl Default for Modal {
             feed: None,
             speed: None,
             spinning: false,
+        }
+    }
+}
+
+impl Modal {
+    fn counting(&self) -> Counting {
+        Counting {
+            unit: self.unit,
+            incremental: self.distance == Distance::Incremental,
+            absolute_centers: self.centers == Distance::Absolute,
+            cycle: matches!(self.mode, Mode::Cycle(_)),
         }
     }
 }
@@ -157,6 +168,7 @@ impl Machine {
             Some(special) => self.special(run, special)?,
             None => self.motion(run, &orders)?,
         }
+        self.listing.counts(run.line(), self.modal.counting());
         for (name, value) in &block.assignments {
             self.variables.set(name.clone(), *value);
         }
