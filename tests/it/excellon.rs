@@ -161,6 +161,29 @@ fn repeats_repeat() {
 }
 
 #[test]
+fn what_is_no_hole_is_repeated_as_it_is() {
+    let text = "M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0G85X3.0Y1.0\nR2Y5.0\nX9.0Y9.0\nR1X1.0\n\
+                X20.0Y20.0G84X4000\nR1X8.0\nM30\n";
+    let drilling = read(text).expect("a drill file");
+    // Left, bottom, right and top; the bounds of arcs are a nanometre wider.
+    let bounds = |hole: &Hole| {
+        let bounds = hole.path.bounds();
+        [bounds.min().x, bounds.min().y, bounds.max().x, bounds.max().y].map(|nm| (nm.get() + 500) / 1000)
+    };
+    let found: Vec<[i64; 4]> = drilling.holes.iter().map(bounds).collect();
+    let expected = [
+        [1000, 1000, 3000, 1000],
+        [1000, 6000, 3000, 6000],
+        [1000, 11_000, 3000, 11_000],
+        [9000, 9000, 9000, 9000],
+        [10_000, 9000, 10_000, 9000],
+        [18_400, 18_400, 21_600, 21_600],
+        [26_400, 18_400, 29_600, 21_600],
+    ];
+    assert_eq!(found, expected, "three slots, two holes, and two circles");
+}
+
+#[test]
 fn modes_hold_until_changed() {
     let drilling = fixture("modes.drl");
     let expected =
@@ -249,6 +272,32 @@ fn what_cannot_be_drilled_for_certain_is_an_error_with_its_place() {
         ("M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0X2.0\nM30\n", "f.drl:6:9: a second position in one line"),
         ("M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX0Y0\nX5.0Y5.0\nM30\n", "f.drl:8:1: the corners of this package"),
         ("M48\nINCH\nT1C0.03\n%\nT1\nG82\nX0Y0\nX0.3Y0.3\nM30\n", "f.drl:8:1: a square package"),
+        ("M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX1.0Y1.0\nM30\n", "f.drl:7:1: a package of which only one"),
+        ("M48\nMETRIC\nT1C0.8\n%\nT1\nG83X1.0Y1.0\n", "f.drl:6:1: a package of which only one"),
+        (
+            "M48\nMETRIC\nT1C0.8\nT2C1.0\n%\nT1\nG82\nX1.0Y1.0\nT2\nX3.54Y8.62\nM30\n",
+            "f.drl:8:1: a package of which only one",
+        ),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX1.0Y1.0\nG05\nX3.54Y8.62\nM30\n",
+            "f.drl:7:1: a package of which only one",
+        ),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX1.0Y1.0\nG82\nX1.0Y1.0\nX3.54Y8.62\nM30\n",
+            "f.drl:7:1: a package of which only one",
+        ),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX1.0Y1.0\nX3.0Y1.0G85X5.0Y1.0\nM30\n",
+            "f.drl:7:1: a package of which only one",
+        ),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nG82\nX1.0Y1.0\nR3X3.54Y8.62\nM30\n",
+            "f.drl:8:1: R between the corners of a package",
+        ),
+        (
+            "M48\nMETRIC\nT1C0.8\n%\nT1\nG00X1.0Y1.0\nM15\nG01X2.0Y1.0\nR3Y5.0\nM16\nM30\n",
+            "f.drl:9:1: R repeats a hole, but here the router moves",
+        ),
         (
             "M48\nMETRIC\nT1C0.8\n%\nT1\nX1.0Y1.0G84X1000\nM30\n",
             "f.drl:6:12: a circle too small for its drill",

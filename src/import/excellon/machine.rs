@@ -168,6 +168,7 @@ impl<'a, 'w, 'b> Machine<'a, 'w, 'b> {
             let message = "what follows the end of the program (M30) is ignored, with its holes";
             self.warnings.add(&diagnostic::TEXT_AFTER_END, line.place.clone(), message);
         }
+        self.package_is_whole()?;
         self.raise()
     }
 

@@ -26,7 +26,8 @@ pub(super) struct Package {
     /// From hole to hole of a row, and from row to row.
     pitch: Nm,
     rows: Nm,
-    first: Option<Point>,
+    /// Its first corner, and where the file has it.
+    first: Option<(Point, Range<usize>)>,
 }
 
 /// How far a corner may lie off the grid of its package. Chosen: two coordinates, each rounded to a
@@ -35,6 +36,7 @@ const OFF_GRID: Nm = Nm::from_um(51);
 
 impl Machine<'_, '_, '_> {
     pub(super) fn cycle(&mut self, cycle: Cycle, block: &Block<'_>, line: &Line) -> Result<(), Error> {
+        self.package_is_whole()?;
         match cycle {
             Cycle::Slot => self.slot(block, line),
             Cycle::DrilledCircle => self.drilled_circle(block, line),
@@ -87,8 +89,8 @@ impl Machine<'_, '_, '_> {
     /// Takes a corner of `package`; the second one drills it.
     pub(super) fn package(&mut self, package: Package, block: &Block<'_>, line: &Line) -> Result<(), Error> {
         self.at = self.target(self.at, block.x, block.y)?;
-        let Some(first) = package.first else {
-            self.package = Some(Package { first: Some(self.at), ..package });
+        let Some((first, _)) = package.first else {
+            self.package = Some(Package { first: Some((self.at, line.place.clone())), ..package });
             return Ok(());
         };
         let (from, second) = (self.holes.len(), self.at);
@@ -99,6 +101,16 @@ impl Machine<'_, '_, '_> {
         }
         self.packaged = from..self.holes.len();
         Ok(())
+    }
+
+    /// Whether no package waits for its second corner, where what follows has none for it.
+    pub(super) fn package_is_whole(&self) -> Result<(), Error> {
+        let Some((_, place)) = self.package.as_ref().and_then(|package| package.first.as_ref()) else {
+            return Ok(());
+        };
+        let what = "a package of which only one corner is told";
+        let expected = "its opposite corner in the next line, with the same tool";
+        Err(Error::syntax(self.file.name, self.file.bytes, place.clone(), what, expected, ""))
     }
 
     /// The two rows between opposite corners, down the one and up the other.

@@ -59,6 +59,7 @@ impl Machine<'_, '_, '_> {
 
     /// Takes up another tool.
     pub(super) fn change_to(&mut self, number: u32) -> Result<(), Error> {
+        self.package_is_whole()?;
         self.raise()?;
         // T0 puts the tool back, unless there is one of that number.
         self.tool = (number != 0 || self.tools.contains_key(&0)).then_some(number);
@@ -74,6 +75,7 @@ impl Machine<'_, '_, '_> {
     pub(super) fn general(&mut self, word: &Word) -> Result<(), Error> {
         match word.number.integer() {
             Some(0) => {
+                self.package_is_whole()?;
                 self.raise()?;
                 self.mode = Mode::Route(Interpolation::Rapid);
             }
@@ -81,6 +83,7 @@ impl Machine<'_, '_, '_> {
             Some(2) => self.mode = Mode::Route(Interpolation::Arc(Turn::Clockwise)),
             Some(3) => self.mode = Mode::Route(Interpolation::Arc(Turn::CounterClockwise)),
             Some(5 | 38 | 81) => {
+                self.package_is_whole()?;
                 self.raise()?;
                 self.mode = Mode::Drill;
             }

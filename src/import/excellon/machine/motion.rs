@@ -27,6 +27,7 @@ impl Machine<'_, '_, '_> {
             self.at = self.target(self.at, block.x, block.y)?;
             return Ok(());
         }
+        self.repeats_holes(block)?;
         if let Some(package) = self.package.take() {
             return self.package(package, block, line);
         }

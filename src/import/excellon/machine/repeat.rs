@@ -1,8 +1,8 @@
-//! Holes again, elsewhere: rows of one hole, and patterns of many.
+//! Holes again, elsewhere: rows of one hole or slot, and patterns of many.
 
 use std::ops::Range;
 
-use super::Machine;
+use super::{Machine, Mode};
 use crate::board::Hole;
 use crate::geometry::{Nm, Path, Point, Segment, Vector};
 use crate::import::diagnostic;
@@ -11,14 +11,41 @@ use crate::import::excellon::block::Block;
 use crate::import::excellon::lex::{Line, Word};
 
 impl Machine<'_, '_, '_> {
-    /// `R#X#Y#`: the last hole again and again, each that much further.
+    /// Whether `R` stands where a hole can be repeated, if it is there.
+    pub(super) fn repeats_holes(&self, block: &Block<'_>) -> Result<(), Error> {
+        let Some(word) = block.repeat else { return Ok(()) };
+        let what = match self.mode {
+            _ if self.package.is_some() => "R between the corners of a package",
+            Mode::Route(_) => "R repeats a hole, but here the router moves",
+            Mode::Drill => return Ok(()),
+        };
+        Err(self.wrong(word, what, "R after a hole or a slot, or each cut by itself"))
+    }
+
+    /// `R#X#Y#`: the last hole again and again, each that much further; of a slot or a circle all.
     pub(super) fn repeat(&mut self, block: &Block<'_>, line: &Line) -> Result<(), Error> {
         let way = self.way(block.x, block.y)?;
+        let slot = self.holes.last().filter(|hole| self.was_just_cut(hole)).map(|hole| hole.path.clone());
+        let mut far = Vector::default();
         for _ in 0..block.repeats().map_err(|word| self.unknown(word))? {
             self.at = self.in_range(self.at + way, &line.place)?;
-            self.cut(Path { start: self.at, segments: vec![] }, line)?;
+            far = far + way;
+            let path = match &slot {
+                Some(slot) => self.moved(slot, Axes::UNCHANGED, far, &line.place)?,
+                None => Path { start: self.at, segments: vec![] },
+            };
+            self.cut(path, line)?;
         }
         Ok(())
+    }
+
+    /// Whether a slot or a circle is what the tool has cut where it is.
+    fn was_just_cut(&self, hole: &Hole) -> bool {
+        let is_here = |segment: &Segment| match *segment {
+            Segment::Line { to } => to == self.at,
+            Segment::Arc { to, center, .. } => to == self.at || center == self.at,
+        };
+        self.tool == Some(hole.tool) && hole.path.segments.last().is_some_and(is_here)
     }
 
     /// `M02X#Y#`: the pattern once more, moved; `R#M02X#Y#`: that many times. `M02` alone ends the
@@ -82,6 +109,8 @@ struct Axes {
 }
 
 impl Axes {
+    const UNCHANGED: Self = Self { swapped: false, mirrored: (false, false) };
+
     fn of(block: &Block<'_>) -> Self {
         Self { swapped: block.has([70, 23]), mirrored: (block.has([80, 21]), block.has([90, 22])) }
     }
