@@ -95,6 +95,8 @@ const CASES: &[Case] = &[
     ("scale_factor", 20.0 + DISC, 1, &[]),
     ("axis_select", LINE, 1, &[]),
     ("image_rotation", 8.0, 1, &[]),
+    ("image_rotation_repeat", 6.0 * PI, 6, &[]),
+    ("image_rotation_block", 16.0, 2, &[]),
     ("attributes", 2.0 * PI + LINE, 3, &[]),
     ("attributes_in_comments", 2.0 * PI, 2, &[]),
     ("missing_star", LINE, 1, &["missing-star"]),
@@ -163,6 +165,8 @@ fn transformations_put_copper_in_its_place() {
         ("offset", [4500, -500, 15_500, 500]),
         ("axis_select", [-500, -500, 500, 10_500]),
         ("image_rotation", [-1000, 8000, 1000, 12_000]),
+        ("image_rotation_repeat", [-5000, -1000, 1000, 11_000]),
+        ("image_rotation_block", [-11_000, -5000, 1000, 7000]),
         ("trailing_zeros", [-1270, -1270, 39_370, 52_070]),
         ("arc_clockwise", [-500, -5500, 5500, 500]),
     ] {

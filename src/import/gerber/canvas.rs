@@ -57,8 +57,8 @@ impl From<Refusal> for Fault {
 pub(super) enum Frame {
     /// A block aperture with this number.
     Block(u32),
-    /// Copies in x and y, and the steps between them.
-    Repeat { copies: (u32, u32), step: Vector },
+    /// Copies along x and y of the file, and the steps between them.
+    Repeat { copies: (u32, u32), steps: [Vector; 2] },
 }
 
 /// Collects objects.
@@ -143,6 +143,11 @@ impl Canvas {
         self.open.last().map(|(frame, _)| *frame)
     }
 
+    /// Whether a block is open.
+    pub(super) fn is_in_block(&self) -> bool {
+        self.open.iter().any(|(frame, _)| matches!(frame, Frame::Block(_)))
+    }
+
     /// Closes the innermost frame, a block: its number and objects.
     pub(super) fn close_block(&mut self) -> Option<(u32, Shared<Vec<Object>>)> {
         match self.open.last() {
@@ -157,17 +162,20 @@ impl Canvas {
     /// Closes the innermost frame, a repeat, and draws its copies: first along y, then along x
     /// (specification §4.12). False where none is open.
     pub(super) fn close_repeat(&mut self) -> Result<bool, Refusal> {
-        let Some(Frame::Repeat { copies, step }) = self.innermost() else { return Ok(false) };
+        let Some(Frame::Repeat { copies, steps: [along, across] }) = self.innermost() else {
+            return Ok(false);
+        };
         let objects = self.open.pop().map(|(_, objects)| objects).unwrap_or_default();
         if objects.is_empty() {
             return Ok(true);
         }
         // Copies in one place are one, whatever their polarity: what is drawn last there is what
         // one copy draws last.
-        let distinct = |copies: u32, step: Nm| if step == Nm::ZERO { 1 } else { i64::from(copies) };
-        for i in 0..distinct(copies.0, step.x) {
-            for j in 0..distinct(copies.1, step.y) {
-                let way = Vector::new(step.x * i, step.y * j);
+        let distinct =
+            |copies: u32, step: Vector| if step == Vector::default() { 1 } else { i64::from(copies) };
+        for i in 0..distinct(copies.0, along) {
+            for j in 0..distinct(copies.1, across) {
+                let way = Vector::new(along.x * i + across.x * j, along.y * i + across.y * j);
                 for (feature, polarity) in &objects {
                     self.push((moved(feature, Linear::IDENTITY, way), *polarity))?;
                 }

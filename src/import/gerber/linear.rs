@@ -43,6 +43,12 @@ impl Linear {
         }
     }
 
+    /// The map back, of one that leaves no length zero.
+    pub(super) fn inverse(self) -> Self {
+        let area = self.xx * self.yy - self.xy * self.yx;
+        Self { xx: self.yy / area, xy: -self.xy / area, yx: -self.yx / area, yy: self.xx / area }
+    }
+
     pub(super) fn apply(self, (x, y): (f64, f64)) -> (f64, f64) {
         (self.xx * x + self.xy * y, self.yx * x + self.yy * y)
     }
@@ -82,5 +88,6 @@ mod tests {
             "left"
         );
         assert!(!quarter.mirrors(), "a turn keeps the hand");
+        assert_eq!(quarter.inverse(), Linear::rotation(-90.0), "and back");
     }
 }

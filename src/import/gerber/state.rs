@@ -5,7 +5,7 @@ use std::sync::Arc as Shared;
 
 use crate::board::polarity::Polarity;
 use crate::board::{ApertureUse, Axis, FLATTEN, Shape};
-use crate::geometry::{Arc, Nm, Point, Turn};
+use crate::geometry::{Arc, Nm, Point, Turn, Vector};
 use crate::import::diagnostic;
 
 use super::aperture::Template;
@@ -93,12 +93,16 @@ impl<'a> State<'a> {
                 self.apertures.keep_malformed(number, fault, here);
             }
             Command::Macro(definition) => self.apertures.define_macro(definition, here),
-            Command::OpenBlock(number) => sink.canvas.open(Frame::Block(number))?,
+            Command::OpenBlock(number) => {
+                sink.canvas.open(Frame::Block(number))?;
+                self.transformation.set_in_block(sink.canvas.is_in_block());
+            }
             Command::CloseBlock => {
                 let (number, objects) = sink.canvas.close_block().ok_or_else(|| {
                     Fault::new("this closes a block that is not open", "`%ABD12*%` before it")
                 })?;
                 self.apertures.define_block(number, objects);
+                self.transformation.set_in_block(sink.canvas.is_in_block());
                 sink.attributes.forget();
             }
             Command::CloseRepeat => {
@@ -106,7 +110,9 @@ impl<'a> State<'a> {
             }
             Command::OpenRepeat(copies, step) => {
                 let step = self.numbers.vector(step, here)?;
-                sink.canvas.open(Frame::Repeat { copies, step })?;
+                let along = [Vector::new(step.x, Nm::ZERO), Vector::new(Nm::ZERO, step.y)];
+                let steps = along.map(|step| self.transformation.vector(step));
+                sink.canvas.open(Frame::Repeat { copies, steps })?;
             }
             Command::Polarity(polarity) => {
                 if self.region.as_ref().is_some_and(Region::is_open) && polarity != self.polarity {
@@ -156,7 +162,7 @@ impl<'a> State<'a> {
         let number = self.apertures.selected()?;
         let ink = self.ink(here.line, sink);
         if let Template::Block(objects) = &**self.apertures.flash(number) {
-            let (objects, linear) = (Shared::clone(objects), self.transformation.of_apertures());
+            let (objects, linear) = (Shared::clone(objects), self.transformation.of_blocks());
             return Ok(sink.flash_block(&objects, linear, at, ink)?);
         }
         let linear = || self.transformation.of_apertures();

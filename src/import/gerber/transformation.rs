@@ -93,6 +93,8 @@ pub(super) struct Transformation {
     image_mirror: (f64, f64),
     image_scale: (f64, f64),
     image_offset: Vector,
+    /// Whether what is drawn is part of a block, which is offset where it is flashed.
+    in_block: bool,
     /// What all of the image's make of an offset in the file.
     image: Linear,
     is_identity: bool,
@@ -109,6 +111,7 @@ impl Transformation {
             image_mirror: (1.0, 1.0),
             image_scale: (1.0, 1.0),
             image_offset: Vector::default(),
+            in_block: false,
             image: Linear::IDENTITY,
             is_identity: true,
         }
@@ -134,16 +137,40 @@ impl Transformation {
         self.update();
     }
 
+    /// What is drawn is part of a block from now on, or no longer.
+    pub(super) fn set_in_block(&mut self, in_block: bool) {
+        self.in_block = in_block;
+        self.update();
+    }
+
     fn update(&mut self) {
         let (mirror, scale) = (self.image_mirror, self.image_scale);
         let stretch = Linear::stretch(mirror.0 * scale.0, mirror.1 * scale.1);
         self.image = self.image_rotation.after(stretch).after(self.image_swap);
-        self.is_identity = self.image == Linear::IDENTITY && self.image_offset == Vector::default();
+        self.is_identity = self.image == Linear::IDENTITY && self.offset() == Vector::default();
     }
 
     /// What is made of apertures: mirrored, then rotated, then scaled (specification §4.9).
     pub(super) fn of_apertures(&self) -> Linear {
-        self.image_rotation.after(self.scale).after(self.rotation).after(self.mirror)
+        self.image_rotation.after(self.load())
+    }
+
+    /// What is made of a block: mirrored, rotated, scaled along the axes of the file. Its objects
+    /// are drawn along the image's, as all others.
+    pub(super) fn of_blocks(&self) -> Linear {
+        let load = self.load();
+        if load == Linear::IDENTITY || self.image == Linear::IDENTITY {
+            return load;
+        }
+        self.image.after(load).after(self.image.inverse())
+    }
+
+    fn load(&self) -> Linear {
+        self.scale.after(self.rotation).after(self.mirror)
+    }
+
+    fn offset(&self) -> Vector {
+        if self.in_block { Vector::default() } else { self.image_offset }
     }
 
     /// Where a coordinate of the file lies on the board.
@@ -152,7 +179,7 @@ impl Transformation {
             return in_reach(p);
         }
         let way = self.image.vector(p - Point::default());
-        in_reach(Point::default() + way + self.image_rotation.vector(self.image_offset))
+        in_reach(Point::default() + way + self.image_rotation.vector(self.offset()))
     }
 
     /// Which way an offset of the file goes.
