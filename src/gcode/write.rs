@@ -102,7 +102,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Lines of the user's own, between comments that tell them from ours.
+    /// Lines of the user's own as they are, between comments that tell them from ours.
     fn own(&mut self, which: impl Fn(&OwnCode) -> &Vec<String>) {
         let lines = which(&self.dialect.own);
         if lines.is_empty() {
@@ -110,7 +110,8 @@ impl<'a> Writer<'a> {
         }
         self.comment(OWN_BEGINS);
         for line in lines {
-            self.line(line);
+            self.text.push_str(line);
+            self.end_line();
         }
         self.comment(OWN_ENDS);
     }

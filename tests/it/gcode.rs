@@ -287,3 +287,12 @@ fn what_the_text_does_not_tell_is_refused_with_the_reason() {
         assert!(error.contains(reason), "`{text}` gives `{error}`, without `{reason}`");
     }
 }
+
+#[test]
+fn lines_of_the_users_own_have_the_numbers_that_they_have() {
+    let text = "name = 'numbered'\nbase = 'linuxcnc'\nline-numbers = 'by-tens'";
+    let mut dialect = Dialect::from_toml(text).expect("a dialect");
+    dialect.own.before = ["%", "N5 M64 P0"].map(str::to_owned).to_vec();
+    let text = write(&program(um(0, 0, -100), Vec::new()), &dialect, &header());
+    assert!(text.contains("(own G-code begins)\n%\nN5 M64 P0\n(own G-code ends)\nN10 "), "{text}");
+}
