@@ -4,7 +4,7 @@
 //! the rounded figures: what has not moved is not written, and an arc that rounding would turn into
 //! another (a short one whose end slips behind its start would become a full circle) is written as
 //! lines. A full circle is written in two halves, as controllers differ in what an arc is that ends
-//! where it begins: all round, nothing, or an error.
+//! where it begins: all round, nothing, or an error; what is opposite is so to the last digit.
 
 use std::fmt::Write as _;
 
@@ -309,29 +309,47 @@ impl<'a> Writer<'a> {
     fn arc(&mut self, to: Position, center: Point, turn: Turn, feed: Feed) {
         let from = self.planned.expect("an arc follows a move");
         let arc = Arc { start: from.point(), end: to.point(), center, turn };
-        let faithful = self.dialect.arcs != Arcs::Lines && self.survives_rounding(&arc);
-        if !faithful {
-            self.chords(&arc, from.z, to, feed);
-        } else if self.dialect.arcs == Arcs::Radius {
-            self.by_radius(&arc, from.z, to, feed);
-        } else if arc.start == arc.end {
-            let opposite = Point::new(center.x * 2 - arc.start.x, center.y * 2 - arc.start.y);
-            let z = from.z + Nm::new((to.z - from.z).get() / 2);
-            self.by_center(Position::over(opposite, z), center, turn, feed);
-            self.by_center(to, center, turn, feed);
-        } else {
-            self.by_center(to, center, turn, feed);
+        let ends = self.ends(&arc);
+        let starts = std::iter::once(arc.start).chain(ends.iter().copied());
+        let parts: Vec<Arc> = starts.zip(&ends).map(|(start, &end)| Arc { start, end, ..arc }).collect();
+        if self.dialect.arcs == Arcs::Lines || !parts.iter().all(|part| self.survives_rounding(part)) {
+            return self.chords(&arc, from.z, to, feed);
         }
+        let count = i64::try_from(parts.len()).expect("at most four");
+        for (index, part) in (1..).zip(&parts) {
+            let z =
+                if index == count { to.z } else { from.z + Nm::new((to.z - from.z).get() * index / count) };
+            self.part(part, z, feed);
+        }
+        self.planned = Some(to);
+    }
+
+    /// Where the parts end in which an arc is written: by radius each of less than half a turn,
+    /// where that is unambiguous, else halves of a full circle.
+    fn ends(&self, arc: &Arc) -> Vec<Point> {
+        let sweep = arc.sweep().abs();
+        match self.dialect.arcs {
+            Arcs::Radius if sweep > 3.0 => arc.parts(4).collect(),
+            Arcs::Radius if sweep > 1.5 => arc.parts(2).collect(),
+            Arcs::Center if arc.start == arc.end => {
+                let (start, center) = (self.snap(arc.start), self.snap(arc.center));
+                vec![Point::new(center.x * 2 - start.x, center.y * 2 - start.y), arc.end]
+            }
+            Arcs::Center | Arcs::Radius | Arcs::Lines => vec![arc.end],
+        }
+    }
+
+    /// As it is written.
+    fn snap(&self, p: Point) -> Point {
+        Point::new(Nm::new(self.round(p.x) * self.unit), Nm::new(self.round(p.y) * self.unit))
     }
 
     /// Whether the arc between the rounded points round the rounded centre is still that arc: every
     /// point of it within two units of the last digit, and the two radii as near as the controller
     /// asks.
     fn survives_rounding(&self, arc: &Arc) -> bool {
-        let snap =
-            |p: Point| Point::new(Nm::new(self.round(p.x) * self.unit), Nm::new(self.round(p.y) * self.unit));
-        let rounded =
-            Arc { start: snap(arc.start), end: snap(arc.end), center: snap(arc.center), turn: arc.turn };
+        let [start, end, center] = [arc.start, arc.end, arc.center].map(|p| self.snap(p));
+        let rounded = Arc { start, end, center, turn: arc.turn };
         if (arc.start == arc.end) != (rounded.start == rounded.end) || rounded.radius() < 1.0 {
             return false;
         }
@@ -355,46 +373,25 @@ impl<'a> Writer<'a> {
         }
     }
 
-    fn by_center(&mut self, to: Position, center: Point, turn: Turn, feed: Feed) {
+    /// An arc that survives rounding, up or down to a height.
+    fn part(&mut self, arc: &Arc, z: Nm, feed: Feed) {
         let at = self.at.expect("an arc follows a move");
-        let rounded = self.position(to);
-        let (i, j) = (self.round(center.x) - at.x, self.round(center.y) - at.y);
-        self.begin_arc(turn, at, rounded);
-        self.word('I', i);
-        self.word('J', j);
-        self.feed_word(feed);
-        self.end_line();
-        self.planned = Some(to);
-    }
-
-    /// In parts of less than half a turn, where the radius is unambiguous.
-    fn by_radius(&mut self, arc: &Arc, from: Nm, to: Position, feed: Feed) {
-        let parts = if arc.sweep().abs() > 1.5 { if arc.sweep().abs() > 3.0 { 4 } else { 2 } } else { 1 };
-        for (part, point) in (1..).zip(arc.parts(parts)) {
-            let z = if part == parts {
-                to.z
-            } else {
-                from + Nm::new((to.z - from).get() * i64::from(part) / i64::from(parts))
-            };
-            let rounded = self.position(Position::over(point, z));
-            let at = self.at.expect("an arc follows a move");
-            self.begin_arc(arc.turn, at, rounded);
-            self.word('R', self.round(Nm::from_f64(arc.radius())));
-            self.feed_word(feed);
-            self.end_line();
-        }
-        self.planned = Some(to);
-    }
-
-    /// Begins the line of an arc, which is said to end at a place.
-    fn begin_arc(&mut self, turn: Turn, from: Rounded, to: Rounded) {
-        self.begin_line(match turn {
+        let to = self.position(Position::over(arc.end, z));
+        self.begin_line(match arc.turn {
             Turn::Clockwise => "G2",
             Turn::CounterClockwise => "G3",
         });
         self.word('X', to.x);
         self.word('Y', to.y);
-        self.coordinate('Z', to.z, Some(from.z));
+        self.coordinate('Z', to.z, Some(at.z));
+        if self.dialect.arcs == Arcs::Radius {
+            self.word('R', self.round(Nm::from_f64(arc.radius())));
+        } else {
+            self.word('I', self.round(arc.center.x) - at.x);
+            self.word('J', self.round(arc.center.y) - at.y);
+        }
+        self.feed_word(feed);
+        self.end_line();
         self.at = Some(to);
         self.height = Some(to.z);
     }

@@ -289,6 +289,31 @@ fn what_the_text_does_not_tell_is_refused_with_the_reason() {
 }
 
 #[test]
+fn circles_in_coarse_decimals_are_those_that_grbl_bears() {
+    let dialect = |arcs: &str| {
+        let text = format!("name = 'coarse'\nbase = 'grbl'\ndecimals = 2\narcs = '{arcs}'");
+        Dialect::from_toml(&text).expect("a dialect")
+    };
+    let (center, radius) = (Point::new(Nm::new(3_317_300), Nm::new(4_112_700)), Nm::new(613_400));
+    for step in 0..60 {
+        let (sin, cos) = libm::sincos(f64::from(step) / 60.0 * std::f64::consts::TAU);
+        let (x, y) = (radius.to_f64() * cos, radius.to_f64() * sin);
+        let start = Point::new(center.x + Nm::from_f64(x), center.y + Nm::from_f64(y));
+        let start = Position::over(start, Nm::from_um(-100));
+        let circle = Move::Arc { to: start, center, turn: Turn::Clockwise, feed: Feed::from_mm_per_min(200) };
+        let text = write(&program(start, vec![circle]), &dialect("center"), &header());
+        assert!(text.contains("\nG2 "), "it is written as arcs:\n{text}");
+        for motion in &read(&text).expect("it reads").motions {
+            let (Way::Arc { center, .. }, Some((from, to))) = (motion.way, place(motion)) else { continue };
+            let off = center.distance(from.point()) - center.distance(to.point());
+            assert!(off.abs() < 1_000.0, "the ends are {off} nm apart from the centre:\n{text}");
+        }
+        let text = write(&program(start, vec![circle]), &dialect("radius"), &header());
+        assert!(read(&text).is_ok(), "{text}");
+    }
+}
+
+#[test]
 fn lines_of_the_users_own_have_the_numbers_that_they_have() {
     let text = "name = 'numbered'\nbase = 'linuxcnc'\nline-numbers = 'by-tens'";
     let mut dialect = Dialect::from_toml(text).expect("a dialect");
