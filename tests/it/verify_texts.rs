@@ -104,8 +104,9 @@ fn a_program_that_cuts_is_no_probe_whatever_its_comments_say() {
 #[test]
 fn comments_that_are_too_long_for_a_line_are_read_whole() {
     let long = "valve-amplifier-preamp-stage-board-with-regulated-heater-supply-revision-seven";
-    let settings =
-        format!("tool = \"{long}\"\n[tools.{long}]\nkind = \"vbit\"\ntip = \"0.1mm\"\nangle = \"30deg\"\n");
+    let settings = format!(
+        "tool-change = \"pause\"\ntool = \"{long}\"\n[tools.{long}]\nkind = \"vbit\"\ntip = \"0.1mm\"\nangle = \"30deg\"\n"
+    );
     let made = job(&settings, long);
     for part in [Part::Front, Part::Drill, Part::Cutout] {
         let text = text(&made, part);
