@@ -173,7 +173,7 @@ impl Work {
         let warnings: Vec<WarningEntry> = warnings.map(WarningEntry::from).collect();
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
-            write(output, picture, made.programs())?;
+            write(Output::new(input.sources(&[])), output, picture, made.programs())?;
         }
         shared.tell_stages(&stages);
         let findings = judged.as_ref().map_or(&[][..], M::findings);
@@ -420,8 +420,12 @@ fn borrowed(texts: &[(String, String)]) -> Vec<(&str, &str)> {
 const WIDTH: u32 = 1600;
 
 /// Writes a file for each tool, called as asked for but for its tag, and a picture.
-fn write(output: &Path, picture: Option<(&Path, Vec<u8>)>, programs: &[OneTool]) -> Result<(), Failure> {
-    let mut staged = Output::new();
+fn write(
+    mut staged: Output,
+    output: &Path,
+    picture: Option<(&Path, Vec<u8>)>,
+    programs: &[OneTool],
+) -> Result<(), Failure> {
     if let Some((path, bytes)) = &picture {
         staged.stage(path, bytes)?;
     }

@@ -129,7 +129,7 @@ impl Diff {
     }
 
     fn draw(&self, output: &Path, found: &[(String, Comparison)]) -> Result<(), Failure> {
-        let mut files = Output::new();
+        let mut files = Output::new([self.before.clone(), self.after.clone()]);
         let folder = self.before.is_dir();
         if folder {
             files.make_folder(output)?;

@@ -150,6 +150,10 @@ impl Draw {
         let side = chosen_side(self.side, loaded.board.front.is_some(), loaded.board.back.is_some())?;
         if self.paper {
             self.config.judge_paper()?;
+            if !matches!(self.format, None | Some(Format::Png)) {
+                return Err(Failure::new("--paper draws a PNG", "leave --format out"));
+            }
+            self.input.tell(&loaded.warnings, shared)?;
             let canvas = job::paper_picture(&loaded.board, side, &settings)?;
             return self.write(&png::rgb(canvas.ok_or_else(|| no_copper(side))?));
         }
@@ -177,6 +181,7 @@ impl Draw {
             if self.stage == Stage::Copper { off_ties(area, settings.picture_pixel()) } else { area };
         let grid = format.grid(sampled, settings.picture_pixel())?;
         if self.stage == Stage::Thinning {
+            self.input.tell(&loaded.warnings, shared)?;
             return self.thinning(shared, &settings, &loaded.board, side, (format, grid));
         }
         let read: Vec<WarningEntry> = loaded.warnings.iter().map(WarningEntry::from).collect();
@@ -203,7 +208,7 @@ impl Draw {
         if self.output == Path::new("-") {
             return super::print_bytes(bytes);
         }
-        let mut output = Output::new();
+        let mut output = Output::new(self.input.sources(&[]));
         output.stage(&self.output, bytes)?;
         output.commit()
     }

@@ -30,7 +30,7 @@ impl Init {
             let cause = format!("{} is there already", path.display());
             return Err(Failure::new(cause, "--force replaces it"));
         }
-        let mut output = Output::new();
+        let mut output = Output::new([]);
         output.stage(&path, text.as_bytes())?;
         output.commit()?;
         shared.say(&format!("wrote {}: every setting with its default, commented out\n", path.display()));

@@ -4,17 +4,18 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
-use voromill::board::{Side, Warning};
+use voromill::board::{Side, Source, Warning};
 use voromill::geometry::{Nm, ParseLengthError, Point, Rect, Vector};
 use voromill::grid::Grid;
 use voromill::import::drawing::{self, Unit};
 use voromill::import::picture::Pixels;
 use voromill::import::{self, Loaded, Selection, diagnostic, picture};
 use voromill::job::{self, Length, MillProject, ProjectFiles, Settings};
+use voromill::report;
 use voromill::report::document::WarningEntry;
 use voromill::report::thinning::Thinning;
 
-use super::Failure;
+use super::{Failure, Shared};
 
 /// What to read.
 #[derive(Args, Default)]
@@ -173,6 +174,14 @@ impl Input {
         Err(Failure::new(cause, "repair the files, or leave --deny-warnings out"))
     }
 
+    /// Fails where warnings are denied, and else says what was found in the files.
+    pub(super) fn tell(&self, warnings: &[Warning], shared: Shared) -> Result<(), Failure> {
+        let warnings: Vec<WarningEntry> = warnings.iter().map(WarningEntry::from).collect();
+        self.judge(&warnings)?;
+        shared.say(&report::warnings(&warnings, shared.is_verbose()));
+        Ok(())
+    }
+
     /// What to read: what is named here, by itself or by what it is, or else the files of the
     /// millproject.
     pub(super) fn paths(&self) -> Vec<PathBuf> {
@@ -185,6 +194,17 @@ impl Input {
         }
         let ProjectFiles { front, back, outline, drill } = self.project().unwrap_or_default().files;
         [front, back, outline, drill].into_iter().flatten().collect()
+    }
+
+    /// The files that were read, of folders those of `read`.
+    pub(super) fn sources(&self, read: &[Source]) -> Vec<PathBuf> {
+        let layers = [&self.front, &self.back, &self.outline].into_iter().flatten();
+        let named = self.paths().into_iter().chain(layers.chain(&self.drill_files).cloned());
+        let files = |path: PathBuf| match path.is_dir() {
+            true => read.iter().map(|source| path.join(&source.file)).collect(),
+            false => vec![path],
+        };
+        named.flat_map(files).collect()
     }
 
     /// What the millproject says, its files as seen from here; nothing where none is named.

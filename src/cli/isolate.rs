@@ -59,6 +59,7 @@ impl Isolate {
         }
         if self.paper {
             self.config.judge_paper()?;
+            self.input.tell(&loaded.warnings, shared)?;
             let side = if loaded.board.front.is_some() { Side::Front } else { Side::Back };
             let text = job::paper_program(&loaded.board, side, &settings)?.unwrap_or_default();
             drop(progress);
@@ -92,7 +93,7 @@ impl Isolate {
         if self.output == Path::new("-") {
             return super::print(text);
         }
-        let mut output = Output::new();
+        let mut output = Output::new(self.input.sources(&[]));
         output.stage(&self.output, text.as_bytes())?;
         output.commit()
     }

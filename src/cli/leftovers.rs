@@ -13,8 +13,7 @@ use voromill::board::diagnostic::planning;
 use voromill::import::sha256;
 use voromill::report::document::{OutputEntry, WarningEntry};
 
-/// The endings of programs, beside that of the dialect.
-const PROGRAMS: [&str; 7] = ["ngc", "nc", "gcode", "gc", "tap", "cnc", "g"];
+use super::program_files::ENDINGS;
 
 /// How many names are shown of many. Chosen: fits a line.
 const SHOWN: usize = 5;
@@ -39,8 +38,8 @@ struct Manifest {
 
 impl Leftovers {
     /// What lies in `folder` where a run writes `written`, the last of them its manifest, from
-    /// `sources`.
-    pub(super) fn find(folder: &Path, written: &[(String, Vec<u8>)], sources: &[Source]) -> Self {
+    /// `sources`; programs end in `own`, too.
+    pub(super) fn find(folder: &Path, written: &[(String, Vec<u8>)], sources: &[Source], own: &str) -> Self {
         // A file system may hold names of capitals and small letters for the same.
         let is_written = |name: &str| written.iter().any(|(other, _)| other.eq_ignore_ascii_case(name));
         let is_read = |name: &str| sources.iter().any(|source| source.file.eq_ignore_ascii_case(name));
@@ -64,7 +63,8 @@ impl Leftovers {
         let entries = fs::read_dir(folder).into_iter().flatten().flatten();
         let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
         let ending = |name: &str| name.rsplit_once('.').map(|(_, ending)| ending.to_ascii_lowercase());
-        let is_program = |name: &String| ending(name).is_some_and(|ending| PROGRAMS.contains(&&*ending));
+        let is_program =
+            |name: &String| ending(name).is_some_and(|ending| ending == own || ENDINGS.contains(&&*ending));
         found.others = names
             .filter(is_program)
             .filter(|name| !is_written(name) && !is_read(name) && !listed.contains(name))

@@ -9,6 +9,7 @@ use voromill::import::sha256;
 use voromill::job::{Length, Place, Triple};
 
 use super::output::Output;
+use super::program_files::{bytes_of, text_of};
 use super::{Failure, Shared};
 
 /// A program levelled: adapted to the surface that was probed
@@ -80,10 +81,10 @@ enum Unit {
 
 impl Level {
     pub(super) fn run(self, shared: Shared) -> Result<(), Failure> {
-        let text = read(&self.program)?;
+        let (text, is_bytes) = read(&self.program)?;
         let (map, format) = self.map()?;
         let (program, name) = (name(&self.program), name(&self.map));
-        let hash = sha256(read(&self.map)?.as_bytes());
+        let hash = sha256(read(&self.map)?.0.as_bytes());
         let levelling = Levelling {
             tolerance: positive("--tolerance", self.tolerance)?,
             margin: self.margin()?,
@@ -99,16 +100,18 @@ impl Level {
         let done = level(&text, &map, &levelling)
             .map_err(|error| Failure::new(format!("{program}: {error}"), hint(&error)))?;
         let output = self.output.unwrap_or_else(|| beside(&self.program));
-        if output == Path::new("-") {
-            return super::print(&done.text);
-        }
-        let mut files = Output::new();
-        files.stage(&output, done.text.as_bytes())?;
-        files.commit()?;
         let (columns, rows) = map.size();
         let outliers = map.outliers();
         let accepted =
             if outliers.is_empty() { String::new() } else { format!("{name}: {}\n", off(&outliers)) };
+        let text = bytes_of(done.text, is_bytes);
+        if output == Path::new("-") {
+            shared.say(&accepted);
+            return super::print_bytes(&text);
+        }
+        let mut files = Output::new([self.map.clone()]);
+        files.stage(&output, &text)?;
+        files.commit()?;
         let [low, high] = done.heights.unwrap_or_default();
         shared.report(&format!(
             "{}: {} motions below {:.3} mm follow a surface from {low:.3} mm to {high:.3} mm, {} lines more\n{name}: {}, {columns} by {rows} probed points\n{accepted}",
@@ -121,7 +124,7 @@ impl Level {
     }
 
     fn map(&self) -> Result<(HeightMap, &'static str), Failure> {
-        let text = read(&self.map)?;
+        let (text, _) = read(&self.map)?;
         let unit = match self.map_unit {
             Unit::Mm => Nm::from_mm(1),
             Unit::In => Nm::from_um(25_400),
@@ -187,9 +190,9 @@ fn positive(option: &str, length: Length) -> Result<Nm, Failure> {
     Err(Failure::new(format!("{option}: `{length}` is invalid: expected at least {}", Length(LEAST)), ""))
 }
 
-fn read(path: &Path) -> Result<String, Failure> {
+fn read(path: &Path) -> Result<(String, bool), Failure> {
     let bytes = std::fs::read(path).map_err(|error| Failure::io("read", path, &error))?;
-    Ok(String::from_utf8_lossy(&bytes).into_owned())
+    Ok(text_of(bytes))
 }
 
 fn name(path: &Path) -> String {

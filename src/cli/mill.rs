@@ -140,9 +140,9 @@ impl Mill {
             |(file, bytes): &(String, Vec<u8>)| OutputEntry { file: file.clone(), sha256: sha256(bytes) };
         document.outputs = files.iter().map(entry).collect();
         files.push((format!("{}.json", job.board.name), document.to_json().into_bytes()));
-        let leftovers = Leftovers::find(folder, &files, &job.sources);
+        let leftovers = Leftovers::find(folder, &files, &job.sources, &settings.dialect.extension);
         self.input.judge(&leftovers.warnings(folder))?;
-        let mut output = Output::new();
+        let mut output = Output::new(self.input.sources(&job.sources));
         output.make_folder(folder)?;
         let write = || {
             for (name, bytes) in &files {

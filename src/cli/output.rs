@@ -20,6 +20,8 @@ pub(super) struct Output {
     streams: Vec<(PathBuf, Vec<u8>)>,
     /// What goes once everything is in its place.
     obsolete: Vec<PathBuf>,
+    /// What all is made from, which must not be replaced.
+    sources: Vec<PathBuf>,
 }
 
 /// What there is before all is in its place.
@@ -32,11 +34,12 @@ struct Pending {
 }
 
 impl Output {
-    /// No file yet.
-    pub(super) fn new() -> Self {
+    /// No file yet; none may be one of `sources`, which it is made from.
+    pub(super) fn new(sources: impl IntoIterator<Item = PathBuf>) -> Self {
         let pending = Arc::default();
         leave_nothing_when_interrupted(&pending);
-        Self { pending, streams: Vec::new(), obsolete: Vec::new() }
+        let sources = sources.into_iter().filter_map(|path| fs::canonicalize(path).ok()).collect();
+        Self { pending, streams: Vec::new(), obsolete: Vec::new(), sources }
     }
 
     fn pending(&self) -> MutexGuard<'_, Pending> {
@@ -67,11 +70,15 @@ impl Output {
             self.streams.push((path.to_path_buf(), bytes.to_vec()));
             return Ok(());
         }
+        if fs::canonicalize(path).is_ok_and(|path| self.sources.contains(&path)) {
+            let cause = format!("{} is what this is made from, and would be lost", path.display());
+            return Err(Failure::new(cause, "write to another file"));
+        }
         // Held while it is written, so that no signal ends the program between the file and its
         // entry.
         let mut pending = self.pending();
         if pending.staged.iter().any(|(_, staged)| staged == path) {
-            let hint = "choose another name with --output-name";
+            let hint = "give each a name of its own";
             return Err(Failure::new(format!("two outputs would be {}", path.display()), hint));
         }
         let name = path.file_name().unwrap_or_default().to_string_lossy();

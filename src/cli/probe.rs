@@ -71,6 +71,7 @@ impl Probe {
         let settings = self.config.settings(&self.input, shared)?;
         let loaded = self.input.survey(&settings)?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
+        self.input.tell(&loaded.warnings, shared)?;
         let side = Side::from(self.side);
         let probing = Probing {
             side,
@@ -84,10 +85,11 @@ impl Probe {
         if self.output == Path::new("-") {
             return super::print(&text);
         }
-        let mut output = Output::new();
+        let mut output = Output::new(self.input.sources(&[]));
         output.stage(&self.output, text.as_bytes())?;
         output.commit()?;
-        let touches = text.lines().filter(|line| line.contains("G38.2")).count();
+        let is_touch = |line: &&str| line.starts_with(|c: char| !"(;".contains(c)) && line.contains("G38.2");
+        let touches = text.lines().filter(is_touch).count();
         shared.report(&format!("{}: {touches} points to probe\n", self.output.display()))
     }
 }

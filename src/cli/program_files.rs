@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use super::Failure;
 
 /// What they end in.
-const ENDINGS: [&str; 9] = ["ngc", "nc", "gcode", "gco", "gc", "g", "cnc", "tap", "iso"];
+pub(super) const ENDINGS: [&str; 9] = ["ngc", "nc", "gcode", "gco", "gc", "g", "cnc", "tap", "iso"];
 
 /// The programs of a folder in order of their names.
 pub(super) fn programs(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -20,6 +20,20 @@ pub(super) fn programs(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     }
     found.sort();
     Ok(found)
+}
+
+/// A text: where its bytes are not UTF-8, each is a character, as controllers take it; and whether
+/// it is so.
+pub(super) fn text_of(bytes: Vec<u8>) -> (String, bool) {
+    match String::from_utf8(bytes) {
+        Ok(text) => (text, false),
+        Err(error) => (error.as_bytes().iter().copied().map(char::from).collect(), true),
+    }
+}
+
+/// The bytes of a text, of which each character is one where it was read so.
+pub(super) fn bytes_of(text: String, is_bytes: bool) -> Vec<u8> {
+    if is_bytes { text.chars().map(|c| u8::try_from(c).unwrap_or(b'?')).collect() } else { text.into_bytes() }
 }
 
 /// The failure where none of `folders` has any.

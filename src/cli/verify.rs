@@ -20,7 +20,7 @@ use voromill::topology::Pattern;
 use voromill::verify::{self, Asked, Cutter, Laid, Orientation, Placement, Program, Role, Severity};
 
 use super::given::of_word;
-use super::program_files::{programs, without_programs};
+use super::program_files::{programs, text_of, without_programs};
 use super::{Failure, Shared};
 
 /// What programs do to a board, before a machine does it
@@ -86,11 +86,11 @@ pub(super) struct Verify {
     thickness: Option<Nm>,
 
     /// Thickness of the copper: shallower cuts do not separate nets
-    #[arg(long, value_name = "LENGTH", default_value = "0.035mm")]
+    #[arg(long, value_name = "LENGTH", default_value = "0.035mm", value_parser = not_below_zero)]
     copper: Nm,
 
     /// How far a cut may reach into copper without a finding
-    #[arg(long, value_name = "LENGTH", default_value = "0.01mm")]
+    #[arg(long, value_name = "LENGTH", default_value = "0.01mm", value_parser = not_below_zero)]
     max_gouge: Nm,
 
     /// The part of its width that a net must keep where a cut reaches into it, such as 0.5
@@ -98,7 +98,7 @@ pub(super) struct Verify {
     keep_width: f64,
 
     /// Strips of copper between two cuts that are narrower than this are slivers
-    #[arg(long, value_name = "LENGTH", default_value = "0.05mm")]
+    #[arg(long, value_name = "LENGTH", default_value = "0.05mm", value_parser = not_below_zero)]
     sliver: Nm,
 
     /// How far the machine can move in x, y and z, such as 280mm,170mm,40mm: a program that spans
@@ -141,7 +141,7 @@ pub(super) struct Verify {
     tile: Option<Tiles>,
 
     /// Distance between them [default: from the programs' comments]
-    #[arg(long, value_name = "LENGTH")]
+    #[arg(long, value_name = "LENGTH", value_parser = not_below_zero)]
     tile_spacing: Option<Nm>,
 
     /// Pixel of the simulation [default: a quarter of the kerf, within 0.005mm to 0.025mm]
@@ -180,15 +180,6 @@ enum Format {
     Json,
     Sarif,
     Junit,
-}
-
-/// A text: where its bytes are not UTF-8, each is a character, as controllers take it; and whether
-/// it is so.
-fn text_of(bytes: Vec<u8>) -> (String, bool) {
-    match String::from_utf8(bytes) {
-        Ok(text) => (text, false),
-        Err(error) => (error.as_bytes().iter().copied().map(char::from).collect(), true),
-    }
 }
 
 /// A part of something: from 0 to 1.
@@ -265,6 +256,15 @@ fn above_zero(text: &str) -> Result<Nm, String> {
     match text.parse::<Nm>() {
         Ok(length) if length > Nm::ZERO => Ok(length),
         Ok(_) => Err("expected a length above zero".to_owned()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+/// A length that may be zero.
+fn not_below_zero(text: &str) -> Result<Nm, String> {
+    match text.parse::<Nm>() {
+        Ok(length) if length >= Nm::ZERO => Ok(length),
+        Ok(_) => Err("expected a length of zero or more".to_owned()),
         Err(error) => Err(error.to_string()),
     }
 }

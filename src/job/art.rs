@@ -10,7 +10,7 @@ use crate::grid::Grid;
 use crate::report::relief::{Material, Relief};
 use crate::toolpath::{Placement, Program, Section, Statistics, ToolKind, measure};
 use crate::verify::carving::{self, Text};
-use crate::verify::{Cutter, CutterKind};
+use crate::verify::{Cutter, CutterKind, Finding};
 
 use super::pipeline::GENERATOR;
 use super::stock::zero;
@@ -119,6 +119,14 @@ pub(super) fn on_machine(
     };
     let reach = around(&areas).into_iter().chain([bounds]).map(farthest).max().unwrap_or_default();
     if reach > FARTHEST { Err(Error::Beyond { reach, most: FARTHEST }) } else { Ok((areas, placement)) }
+}
+
+/// Has findings that are where the machine has them lie where the drawing does, too.
+pub(super) fn on_drawing(findings: &mut [Finding], undo: impl Fn(Point) -> Point) {
+    for finding in findings {
+        finding.on_machine = finding.at;
+        finding.at = finding.at.map(&undo);
+    }
 }
 
 /// A section as a program of its own: what its file's name ends in, what it does, the number of its

@@ -6,7 +6,7 @@ use crate::board::{Warning, Words};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy;
-use crate::toolpath::{Angle, Heights, Order, Section, Tool, ToolKind};
+use crate::toolpath::{Angle, Heights, Order, Placement, Section, Tool, ToolKind};
 use crate::verify::carving::{self, Carved, Ideal, Text};
 use crate::voronoi::medial::{Interior, MedialAxis, Pruning, insets};
 
@@ -76,6 +76,9 @@ pub struct Engraving {
     pub clears: bool,
     /// Corners that turn by less were left out.
     pub corner: Angle,
+    placement: Placement,
+    /// Whether it is carved as seen from behind.
+    mirrored: bool,
     /// A program for each tool, in the order in which they are run; the last has the V-bit.
     pub programs: Vec<OneTool>,
     /// How deep they go.
@@ -207,6 +210,8 @@ pub fn carve(art: Art, settings: &Settings, how: &Carving) -> Result<Engraving, 
         start,
         clears: how.flat.is_some() || how.inlay.is_some(),
         corner: how.corner,
+        placement,
+        mirrored: matches!(how.inlay, Some(Inlay::Male { .. })),
         programs,
         deepest,
         warnings,
@@ -415,7 +420,12 @@ impl Engraving {
             tolerance: TOLERATED,
             pitch,
         };
-        Ok(carving::carving(programs, &ideal)?)
+        let mut carved = carving::carving(programs, &ideal)?;
+        art::on_drawing(&mut carved.findings, |at| {
+            let at = self.placement.undo(at);
+            if self.mirrored { Point::new(-at.x, at.y) } else { at }
+        });
+        Ok(carved)
     }
 
     /// What its programs mill, as a picture at a slant: a PNG so many pixels wide.

@@ -10,7 +10,7 @@ use crate::board::polarity::{difference, intersection, offset, union};
 use crate::geometry::{Nm, Point, Polygon, Rect};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{self, Clearings, Engaging, Entries, Groove, Levels, Planned, Sequence};
-use crate::toolpath::{Angle, Direction, Heights, Tool, ToolKind};
+use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
 use crate::verify::carving::Text;
 use crate::verify::pocketing::{self, Floor, Plunges, Pocketed};
 use crate::voronoi::medial::Interior;
@@ -58,6 +58,7 @@ pub struct Pocket {
     /// Where the time went.
     pub stages: Stages,
     how: Pocketing,
+    placement: Placement,
     levels: Vec<f64>,
     /// How often more than once in each part the tool comes down in a pass: where there is no room
     /// for arcs, in layers.
@@ -90,7 +91,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         Some(margin) => round(&art.areas, margin),
     };
     let areas = without_slivers(&areas);
-    let (areas, _) = on_machine(&areas, settings, "mill")?;
+    let (areas, placement) = on_machine(&areas, settings, "mill")?;
     let mut made = Pocket {
         name: art.name.clone(),
         areas,
@@ -100,6 +101,7 @@ pub fn pocket(art: Art, settings: &Settings, how: &Pocketing) -> Result<Pocket, 
         warnings: art.warnings.clone(),
         stages: Stages::default(),
         how: how.clone(),
+        placement,
         levels: Vec::new(),
         layered: 0,
     };
@@ -175,11 +177,12 @@ impl Pocket {
             self.stages.run(format!("{}: arcs", tool.kind), || Clearings::new(&planned), |_| [])
         });
         if let Some(clearings) = &clearings {
-            self.warnings.extend(clearings.grooves.iter().map(groove_warning));
+            let grooves = clearings.grooves.iter();
+            self.warnings.extend(grooves.map(|groove| groove_warning(groove, &self.placement)));
             self.warnings.extend(clearings.looped.iter().map(|&at| {
                 let message =
                     format!("an area is milled in loops, in {} layers, and not in arcs", clearings.layers());
-                planning::MILLED_IN_LOOPS.warning(message).at(at)
+                planning::MILLED_IN_LOOPS.warning(message).at(self.placement.undo(at))
             }));
             let in_loops = (0..nest.roots.len()).filter(|&root| !clearings.has(root)).count();
             self.layered = in_loops * usize::try_from(clearings.layers() - 1).unwrap_or(0);
@@ -226,13 +229,14 @@ impl Pocket {
 }
 
 /// A place that the tool mills in its full width.
-fn groove_warning(groove: &Groove) -> Warning {
+fn groove_warning(groove: &Groove, placement: &Placement) -> Warning {
     let message = format!(
         "a place {:.3} mm wide and {:.3} mm long is milled in the full width of the tool, in shallow layers",
         groove.width.to_mm(),
         groove.length.to_mm()
     );
-    Warning { size: Some(groove.width), ..planning::MILLED_IN_FULL_WIDTH.warning(message).at(groove.at) }
+    let at = placement.undo(groove.at);
+    Warning { size: Some(groove.width), ..planning::MILLED_IN_FULL_WIDTH.warning(message).at(at) }
 }
 
 /// What a finer tool can clear of areas that a coarser one has cleared as far as it fits.
@@ -456,7 +460,9 @@ impl Pocket {
             tolerance: TOLERATED,
             pitch,
         };
-        Ok(pocketing::pocketing(programs, &floor)?)
+        let mut judged = pocketing::pocketing(programs, &floor)?;
+        art::on_drawing(&mut judged.findings, |at| self.placement.undo(at));
+        Ok(judged)
     }
 
     /// What its programs mill, as a picture at a slant: a PNG so many pixels wide.

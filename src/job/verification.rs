@@ -35,6 +35,7 @@ impl Job {
         let known: Vec<Known<'_>> =
             layers.map(|layer| Known { side: layer.side, nets: &layer.nets }).collect();
         let mut report = verify(&programs, &self.board, &known, &judging)?;
+        self.tell_lines_of_whole(&mut report, settings);
         let beside = self.judged(settings, |written| is_beside(written, settings));
         if let Some((Tiles { columns, rows }, spacing)) = settings.tiles.filter(|_| !beside.is_empty()) {
             let tiles = Some(verify::Tiles { columns, rows, spacing });
@@ -45,6 +46,23 @@ impl Job {
             Some(travel) => report.with(verify::overtravel(&tiled, travel)?),
             None => report,
         })
+    }
+
+    /// Has findings in what mills one of several tiles tell the lines of the whole programs.
+    fn tell_lines_of_whole(&self, report: &mut Report, settings: &Settings) {
+        for written in &self.programs {
+            let Some(tile) = &written.tile else { continue };
+            let file = written.file_name(&self.board.name, settings);
+            let own = report.findings.iter_mut().filter(|found| found.program.as_ref() == Some(&file));
+            let lines: Vec<&mut u32> = own.filter_map(|found| found.line.as_mut()).collect();
+            if lines.is_empty() {
+                continue;
+            }
+            let whole = lines_of_whole(tile, &written.text);
+            for line in lines {
+                *line = whole.get(*line as usize - 1).copied().unwrap_or(*line);
+            }
+        }
     }
 
     /// Of these programs of one tile, those that mill several, whole.
@@ -96,6 +114,20 @@ impl Job {
         let degrees = rotation.degrees();
         Placement { degrees, shift, mirror }
     }
+}
+
+/// Where each line of what mills one tile is in the whole program, which has the same lines in the
+/// same order and others between them; of one that it has not, where the one before is.
+fn lines_of_whole(tile: &str, whole: &str) -> Vec<u32> {
+    let whole: Vec<&str> = whole.lines().collect();
+    let mut next = 0;
+    let place = |line: &str| {
+        if let Some(further) = whole[next..].iter().position(|other| *other == line) {
+            next += further + 1;
+        }
+        u32::try_from(next).unwrap_or(u32::MAX)
+    };
+    tile.lines().map(place).collect()
 }
 
 /// Whether a program is for all tiles together: the holes for turning them over lie beside them.

@@ -63,7 +63,10 @@ impl Document {
         }
         text.push_str(&warnings(&self.warnings, verbose));
         match &self.verification {
-            Some(verdict) => text.push_str(&verdict.fitness(self.warnings.len())),
+            Some(verdict) => {
+                let told = self.warnings.iter().filter(|warning| !warning.kind.is_bookkeeping()).count();
+                text.push_str(&verdict.fitness(told));
+            }
             None if self.programs.is_empty() => {}
             None => text.push_str("  not verified: whether it is fit to mill is not known\n"),
         }

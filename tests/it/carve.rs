@@ -96,7 +96,8 @@ fn corners_that_were_left_out_are_asked_of_nobody() {
     let made = engraving("corners", letters("LEFT OUT"), "vbit:0.05mm:60deg", &how);
     let judged = made.verify(PITCH).expect("a program that can be followed");
     assert!(judged.findings.is_empty(), "{:?}", judged.findings);
-    let strict = Engraving { corner: Angle::ZERO, ..made.clone() };
+    let mut strict = made.clone();
+    strict.corner = Angle::ZERO;
     let judged = strict.verify(PITCH).expect("a program that can be followed");
     assert!(judged.findings.iter().all(|found| found.name == "carved-too-shallow"), "{:?}", judged.findings);
     assert!(judged.findings.len() > 10, "they are missed by who asks for them: {:?}", judged.findings);

@@ -690,6 +690,12 @@ fn denied_warnings_fail_and_write_nothing() {
     refused(&out, &["mill", "amp-F_Cu.gbr", "-o", "out", "--deny-warnings"], &words, &left);
     refused(&out, &["isolate", "amp-F_Cu.gbr", "-o", "a.ngc", "--deny-warnings"], &words, &left);
     refused(&out, &["draw", "amp-F_Cu.gbr", "-o", "a.png", "--deny-warnings"], &words, &left);
+    refused(&out, &["draw", "amp-F_Cu.gbr", "-o", "a.png", "--paper", "--deny-warnings"], &words, &left);
+    let thinned = ["draw", "amp-F_Cu.gbr", "-o", "a.png", "--stage", "thinning", "--deny-warnings"];
+    refused(&out, &thinned, &words, &left);
+    refused(&out, &["isolate", "amp-F_Cu.gbr", "-o", "a.ngc", "--paper", "--deny-warnings"], &words, &left);
+    let probed = ["probe", "amp-F_Cu.gbr", "-o", "a.ngc", "--dialect", "linuxcnc", "--deny-warnings"];
+    refused(&out, &probed, &words, &left);
     let inspected = voromill(out.path(), &["inspect", "amp-F_Cu.gbr", "--format", "json", "--deny-warnings"]);
     assert_eq!(inspected.status.code(), Some(2), "inspect fails too");
     let report: serde_json::Value =
@@ -824,6 +830,47 @@ fn pictures_are_not_written_as_what_they_are_not() {
     let pocket =
         ["pocket", &plate, "--tool", "endmill:1mm", "--depth", "1mm", "-o", "p.ngc", "--picture", "p.webp"];
     fails(&out, &pocket, &["not written as .webp"], &["a.nc", "b.nc"]);
+}
+
+/// Whoever names the same file twice keeps it.
+#[test]
+fn what_all_is_made_from_is_never_replaced() {
+    let out = folder();
+    let path = |name: &str| out.path().join(name);
+    fs::copy(fixture("gerber/clear_polarity.gbr"), path("a-F_Cu.gbr")).expect("copied");
+    let plate = b"(loop)\nG21 G90\nG0 Z2\nG0 X0 Y0\nG1 Z-0.1 F60\nG1 X1\nG0 Z2\nM2\n";
+    fs::write(path("a.nc"), plate).expect("written");
+    fs::write(path("b.nc"), "G21 G90\nG0 Z2\nM2\n").expect("written");
+    fs::write(path("map.xyz"), "-5 -5 0\n5 -5 0\n-5 5 0\n5 5 0.1\n").expect("written");
+    for arguments in [
+        &["isolate", "a-F_Cu.gbr", "-o", "a-F_Cu.gbr"][..],
+        &["draw", "a-F_Cu.gbr", "--format", "png", "-o", "./a-F_Cu.gbr"],
+        &["probe", "a-F_Cu.gbr", "-o", "a-F_Cu.gbr", "--dialect", "linuxcnc"],
+        &["pocket", "a-F_Cu.gbr", "--tool", "endmill:0.1mm", "--depth", "0.1mm", "-o", "a-F_Cu.gbr"],
+        &["diff", "a.nc", "b.nc", "-o", "b.nc"],
+        &["level", "a.nc", "--map", "map.xyz", "-o", "map.xyz"],
+    ] {
+        let last = |name: &&&str| path(name).is_file();
+        let target = arguments.iter().rfind(last).expect("a file");
+        let before = fs::read(path(target)).expect("read");
+        let refused = voromill(out.path(), arguments);
+        let said = stderr(&refused);
+        assert!(refused.status.code() == Some(2) && said.contains("would be lost"), "{arguments:?}: {said}");
+        assert_eq!(fs::read(path(target)).expect("read"), before, "{arguments:?}");
+    }
+}
+
+/// A comment in an encoding of old stays as it is, byte for byte.
+#[test]
+fn levelling_leaves_the_bytes_of_comments() {
+    let out = folder();
+    let text = b"(Fr\xe4ser 0.2 \xb5m)\nG21 G90\nG0 Z2\nG0 X0 Y0\nG1 Z-0.1 F60\nG1 X1\nG0 Z2\nM2\n";
+    fs::write(out.path().join("a.nc"), text).expect("written");
+    fs::write(out.path().join("map.xyz"), "-5 -5 0\n5 -5 0\n-5 5 0\n5 5 0.1\n").expect("written");
+    let done = voromill(out.path(), &["level", "a.nc", "--map", "map.xyz", "-o", "b.nc"]);
+    assert!(done.status.success(), "{}", stderr(&done));
+    let levelled = fs::read(out.path().join("b.nc")).expect("a program");
+    assert!(levelled.starts_with(b"(Fr\xe4ser 0.2 \xb5m)\n"), "{:?}", &levelled[..20]);
 }
 
 #[test]

@@ -247,6 +247,21 @@ fn settings_of_boards_are_no_matter_where_shapes_are_milled() {
     assert_eq!(deep(Settings::for_artwork(of(own), Reach::POCKETS).expect("a pocket's")), Nm::from_mm(4));
 }
 
+/// Of several tiles one is judged: the line that is told is that of the whole program.
+#[test]
+fn of_tiles_the_line_of_the_whole_program_is_told() {
+    let text = "tile = \"2x2\"\ndialect = \"linuxcnc\"\ntool = [\"endmill:0.4mm\", \"endmill:0.2mm\"]";
+    let (job, settings) = job("unsafe-gap", text);
+    let found = job.verify(&settings).expect("programs that can be followed").findings;
+    let gouge = found.iter().find(|found| found.name == "gouge").expect("a gap too narrow for the tool");
+    let front = job.programs.iter().find(|written| written.part == Part::Front).expect("a front");
+    let motions = read(&front.text).expect("a program").motions;
+    let own = motions.iter().find(|motion| Some(motion.line) == gouge.line).expect("its line moves");
+    let at = gouge.on_machine.expect("a place");
+    let off = [own.from, own.to].map(|place| place.point().expect("a place").distance(at));
+    assert!(off[0].min(off[1]) < 1e6, "{at:?} is beside line {:?}: {own:?}", gouge.line);
+}
+
 /// Whether verification finds nothing worse than a sliver.
 fn is_sound(job: &Job, settings: &Settings) -> bool {
     job.verify(settings).expect("a verdict").findings.iter().all(|finding| finding.name == "sliver")

@@ -179,6 +179,19 @@ fn what_is_just_as_wide_as_the_tool_and_left_out_is_found() {
     }
 }
 
+/// What is found lies where the drawing has it, and on the machine where its zero is.
+#[test]
+fn places_are_those_of_the_drawing() {
+    let made = pocketed("far", vec![rectangle([100_000, 50_000, 106_000, 56_000])], "endmill:1mm", &how());
+    let text: String = made.programs[0].text.replace("G1 X5.5", "G1 X4.5");
+    let judged = made.judge(&[("it", text.as_str())], PITCH).expect("a program");
+    let found = judged.findings.iter().find(|found| found.name == "pocket-residue").expect("what is left");
+    let [at, on_machine] = [found.at, found.on_machine].map(|place| place.expect("a place"));
+    let zero = Point::new(Nm::from_mm(100), Nm::from_mm(50));
+    assert_eq!(at - zero, on_machine - Point::default(), "the lower left corner is zero");
+    assert!((0..6_000_000).contains(&on_machine.x.get()), "{on_machine:?}");
+}
+
 /// What a coarser tool has milled in its full width is not left for a finer one.
 #[test]
 fn a_slot_just_as_wide_as_the_coarser_tool_is_milled_once() {
