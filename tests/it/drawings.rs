@@ -432,6 +432,108 @@ fn what_is_damaged_says_where() {
     }
 }
 
+/// The entities of a drawing in millimetres, its layers before them.
+fn entities(layers: &str, entities: &str) -> Result<Drawing, voromill::import::Error> {
+    let text = format!(
+        "0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n{layers}0\nENDTAB\n0\nENDSEC\n\
+         0\nSECTION\n2\nENTITIES\n{entities}0\nENDSEC\n0\nEOF\n"
+    );
+    drawing::read("x.dxf", text.as_bytes(), &in_millimetres())
+}
+
+/// How wide and high the lines of a drawing are.
+fn extent(drawing: &Drawing) -> [Nm; 2] {
+    let paths = drawing.artwork.layers.iter().flat_map(|layer| layer.paths());
+    let bounds = paths.map(|path| path.bounds()).reduce(voromill::geometry::Rect::union).expect("lines");
+    [bounds.width(), bounds.height()]
+}
+
+/// Of floating-point numbers that are as good as equal, in arcs and curves that end where they
+/// begin.
+#[test]
+fn what_is_shorter_than_a_nanometre_is_no_circle() {
+    let line = "0\nLINE\n8\nOutline\n10\n0\n20\n0\n11\n5\n21\n4\n";
+    let arc = |from: &str, to: &str| {
+        let arc = format!("0\nARC\n8\nOutline\n10\n30\n20\n30\n40\n20\n50\n{from}\n51\n{to}\n");
+        extent(&entities("", &format!("{line}{arc}")).expect("read"))
+    };
+    assert!(arc("10", "10.0000000001")[0] < Nm::from_mm(50), "{:?}", arc("10", "10.0000000001"));
+    assert_eq!(arc("10", "10"), [Nm::from_mm(50); 2], "all the way round");
+    assert_eq!(arc("10", "9.9999999999"), [Nm::from_mm(50); 2], "all but a hair");
+    let polyline =
+        "0\nLWPOLYLINE\n8\nOutline\n90\n2\n70\n0\n10\n1\n20\n1\n42\n0.00000001\n10\n1.0000001\n20\n1\n";
+    let bulge = entities("", &format!("{line}{polyline}")).expect("read");
+    assert_eq!(extent(&bulge), [5, 4].map(Nm::from_mm), "a bulge between places that are one");
+    let curve = drawn("<path d='M0,0 C1e-7,1e-7 2e-7,2e-7 3e-7,3e-7 L5,0 L5,5 L0,5Z'/>");
+    assert!((area(&curve, None) - 25.0).abs() < 1e-3, "{} mm²", area(&curve, None));
+}
+
+#[test]
+fn a_layer_is_hidden_however_its_name_is_spelled() {
+    let layers = "0\nLAYER\n2\nConstruction\n70\n0\n62\n-7\n";
+    let line = |layer: &str, x: i32| format!("0\nLINE\n8\n{layer}\n10\n0\n20\n0\n11\n{x}\n21\n4\n");
+    let drawing = entities(layers, &(line("CONSTRUCTION", 50) + &line("Outline", 5))).expect("read");
+    assert_eq!(extent(&drawing), [5, 4].map(Nm::from_mm), "{:?}", drawing.warnings);
+}
+
+#[test]
+fn copies_of_blocks_without_anything_are_counted_too() {
+    let text = std::fs::read_to_string(fixture("block_in_itself.dxf")).expect("readable");
+    let insert = |name: &str| {
+        format!("0\nINSERT\n8\nF.Cu\n2\n{name}\n10\n1\n20\n1\n70\n1400\n71\n1000\n44\n1\n45\n1\n")
+    };
+    let block = |name: &str, inner: &str| {
+        format!("0\nBLOCK\n8\n0\n2\n{name}\n70\n0\n10\n0\n20\n0\n30\n0\n{inner}0\nENDBLK\n8\n0\n")
+    };
+    let blocks = block("NOTHING", "") + &block("ROWS", &insert("NOTHING"));
+    let nested = text.replacen(
+        "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n",
+        &format!("{blocks}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{}", insert("ROWS")),
+        1,
+    );
+    assert!(
+        drawing::read("nested.dxf", nested.as_bytes(), &Options::default()).is_err(),
+        "two million million"
+    );
+}
+
+/// Units that browsers take and the reader of SVG does not.
+#[test]
+fn a_page_is_as_large_as_it_says() {
+    let size = |width: &str, height: &str| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='{width}' height='{height}' viewBox='0 0 100 50'>\
+             <rect x='10' y='10' width='20' height='10'/></svg>"
+        );
+        area(&drawing::read("x.svg", text.as_bytes(), &Options::default()).expect("read"), None)
+    };
+    for (width, height) in
+        [("100mm", "50mm"), ("100 mm", "50 mm"), ("100MM", "50MM"), ("100mm", "100%"), ("400q", "200q")]
+    {
+        assert!((size(width, height) - 200.0).abs() < 0.01, "{width}: {} mm²", size(width, height));
+    }
+}
+
+#[test]
+fn what_an_svg_says_that_is_not_followed_is_told() {
+    let told =
+        drawn("<path transform='scale(10)' vector-effect='non-scaling-stroke' stroke='#000' d='M1 1H3'/>");
+    assert!(
+        format!("{:?}", told.warnings).contains("1 strokes that keep their width"),
+        "{:?}",
+        told.warnings
+    );
+    let layer = |id: &str, label: &str| {
+        format!(
+            "<g id='{id}' xmlns:inkscape='http://www.inkscape.org/namespaces/inkscape' inkscape:groupmode='layer' \
+             inkscape:label='{label}'><rect width='3' height='2'/></g>"
+        )
+    };
+    let error = try_drawn(&(layer("layer1", "F.Cu") + &layer("layer1", "B.Cu"))).expect_err("one id");
+    assert!(error.to_string().contains("groups of one id, `layer1`"), "{error}");
+    drawn(&(layer("layer1", "F.Cu") + &layer("layer2", "B.Cu")));
+}
+
 #[test]
 fn a_block_in_itself_is_drawn_once() {
     let drawing = read(&fixture("block_in_itself.dxf"), &Options::default()).expect("read");

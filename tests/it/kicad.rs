@@ -413,6 +413,43 @@ fn pads_lie_where_their_footprint_is_turned_to() {
     assert_eq!(at("4"), (point(15_000, 15_000), Nm::from_mm(1)), "what was below is to the right");
 }
 
+/// On the layer of the edge a circle is its rim, filled or without a width.
+#[test]
+fn a_circle_of_the_edge_is_an_edge() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (version, pen) in
+        [(20_171_130, "(width 0)"), (20_240_108, "(stroke (width 0.1) (type solid)) (fill solid)")]
+    {
+        let text = format!(
+            "(kicad_pcb (version {version}) (generator pcbnew) (general (thickness 1.6)) \
+             (layers (0 F.Cu signal) (31 B.Cu signal) (44 Edge.Cuts user)) (net 0 \"\") \
+             (gr_circle (center 50 50) (end 70 50) (layer Edge.Cuts) {pen}) \
+             (segment (start 40 50) (end 60 50) (width 0.5) (layer F.Cu) (net 0)))"
+        );
+        let file = folder.path().join("round.kicad_pcb");
+        std::fs::write(&file, text).expect("written");
+        let outline = load(&file).board.outline.expect("an outline");
+        let around = outline.polygon(Nm::from_um(1)).bounds();
+        assert_eq!([around.width(), around.height()], [Nm::from_mm(40); 2], "{version}");
+    }
+}
+
+#[test]
+fn an_area_that_crosses_itself_all_over_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let far = |i: u64, by: u64| f64::from(u32::try_from(i * i * by % 99_991).expect("small")) / 1e3;
+    let corners: String = (0..6000).map(|i| format!("(xy {} {})", far(i, 7_919), far(i, 104_729))).collect();
+    let text = format!(
+        "(kicad_pcb (version 20221018) (generator pcbnew) (general (thickness 1.6)) \
+         (layers (0 F.Cu signal) (31 B.Cu signal) (44 Edge.Cuts user)) (net 0 \"\") \
+         (gr_poly (pts {corners}) (stroke (width 0) (type solid)) (fill solid) (layer F.Cu)))"
+    );
+    let file = folder.path().join("tangled.kicad_pcb");
+    std::fs::write(&file, text).expect("written");
+    let error = import::load(&[file], &Selection::default()).expect_err("tangled").to_string();
+    assert!(error.contains("this area crosses itself too often"), "{error}");
+}
+
 #[test]
 fn edge_holes_and_thickness_are_read() {
     let loaded = load(&fixture("kicad/shapes.kicad_pcb"));

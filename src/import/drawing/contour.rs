@@ -97,8 +97,22 @@ impl Contour {
         }
     }
 
-    /// Round `center`, all the way where the end is the start.
+    /// Round `center` by less than a turn: what is shorter than a nanometre is none.
     pub(in crate::import) fn arc(&mut self, center: Place, turn: Turn, to: Place) {
+        let end = self.point(to);
+        if end == self.path.end() {
+            self.at = to;
+        } else {
+            self.round(center, turn, to);
+        }
+    }
+
+    /// All the way round `center`.
+    pub(in crate::import) fn circle(&mut self, center: Place, turn: Turn) {
+        self.round(center, turn, self.at);
+    }
+
+    fn round(&mut self, center: Place, turn: Turn, to: Place) {
         let (end, center) = (self.point(to), self.point(center));
         (self.at, self.bow) = (to, None);
         self.path.segments.push(Segment::Arc { to: end, center, turn });
@@ -137,13 +151,17 @@ impl Contour {
     /// Round `center` by less than half a turn, in one arc with what it goes on from.
     fn bend(&mut self, center: Place, turn: Turn, to: Place) {
         let next = Bow::new(self.at, center, turn, to);
+        if self.point(to) == self.path.end() {
+            self.at = to;
+            return;
+        }
         let Some((joined, is_whole)) = self.bow.and_then(|bow| bow.with(&next, to)) else {
-            self.arc(center, turn, to);
+            self.round(center, turn, to);
             self.bow = Some(next);
             return;
         };
         self.path.segments.pop();
-        self.arc(joined.center, turn, if is_whole { joined.start } else { to });
+        self.round(joined.center, turn, if is_whole { joined.start } else { to });
         self.bow = (!is_whole).then_some(joined);
     }
 

@@ -61,10 +61,12 @@ impl Reader<'_> {
         // Where nothing is told: KiCad before version 6 filled polygons, and rings without a width.
         let default = match kind {
             b"poly" => !on_edge,
-            b"circle" | b"rect" => width == Nm::ZERO,
+            b"circle" | b"rect" => width == Nm::ZERO && !on_edge,
             _ => false,
         };
         let filled = declared.map_or(default, |word| !matches!(word.raw(), b"none" | b"no" | b"false"));
+        // The edge goes round a circle, whatever is in it.
+        let filled = filled && !(on_edge && kind == b"circle");
         if let Some(word) = declared.filter(|word| word.raw().ends_with(b"hatch")) {
             let message = format!("an area with fill {} is read as filled solid", word.text());
             self.warnings.add(&diagnostic::KICAD_LINE_STYLE, node.place(), message);
@@ -102,6 +104,9 @@ impl Reader<'_> {
     fn polygon(&mut self, node: Node<'_>, frame: &Frame, pen: Pen) -> Result<Drawing, Error> {
         let Some(points) = node.find("pts") else { return Err(self.lacks(node, "`(pts (xy …) …)`")) };
         let points = self.points(points, frame)?;
+        if pen.filled {
+            self.refuse_tangled(&points, node, "draw it in KiCad so that it does not")?;
+        }
         Ok(area(&points, pen))
     }
 

@@ -20,6 +20,22 @@ use crate::import::error::Error;
 const MOST_EFFORT: u64 = 16_000_000;
 
 impl Reader<'_> {
+    /// Fails for an area whose booleans would take too long, with what to do about it.
+    pub(super) fn refuse_tangled(
+        &mut self,
+        points: &Vec<Point>,
+        area: Node<'_>,
+        hint: &'static str,
+    ) -> Result<(), Error> {
+        self.effort += polarity::effort([points].into_iter());
+        if self.effort <= MOST_EFFORT && !polarity::is_tangled([points].into_iter()) {
+            return Ok(());
+        }
+        let what = "this area crosses itself too often";
+        let expected = "an area that does not cross itself";
+        Err(Error::syntax(self.name, self.bytes, area.place(), what, expected, hint))
+    }
+
     /// A zone; one that keeps copper out draws none.
     pub(super) fn zone(&mut self, node: Node<'_>) -> Result<(), Error> {
         let layers = self.layers(node);
@@ -43,19 +59,7 @@ impl Reader<'_> {
             let Some(points) = area.find("pts") else { return Err(self.lacks(area, "`(pts (xy …) …)`")) };
             let frame = self.frame;
             let points = self.points(points, &frame)?;
-            self.effort += polarity::effort([&points].into_iter());
-            if self.effort > MOST_EFFORT || polarity::is_tangled([&points].into_iter()) {
-                let what = "this area crosses itself too often";
-                let expected = "an area that does not cross itself";
-                return Err(Error::syntax(
-                    self.name,
-                    self.bytes,
-                    area.place(),
-                    what,
-                    expected,
-                    "fill it again in KiCad (press B) and save",
-                ));
-            }
+            self.refuse_tangled(&points, area, "fill it again in KiCad (press B) and save")?;
             let drawing = filled(&points, pen);
             for side in on.sides() {
                 any = true;

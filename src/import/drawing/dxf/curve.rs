@@ -37,6 +37,10 @@ impl Ellipse {
         self.at(self.from)
     }
 
+    fn end(&self) -> Place {
+        self.at(self.from + self.sweep)
+    }
+
     /// The same from its end.
     pub(super) fn reversed(self) -> Self {
         Self { from: self.from + self.sweep, sweep: -self.sweep, ..self }
@@ -50,12 +54,7 @@ impl Ellipse {
         let is_left = ax * by - ay * bx >= 0.0;
         if is_circle && frame.similar().is_some() {
             let turn = if (self.sweep > 0.0) == is_left { frame.turn() } else { frame.turn().reversed() };
-            let end = if self.sweep.abs() >= TAU - 1e-12 {
-                contour.at()
-            } else {
-                frame.place(self.at(self.from + self.sweep))
-            };
-            contour.arc(frame.place(self.center), turn, end);
+            round(contour, frame.place(self.center), turn, self.sweep, frame.place(self.end()));
             return;
         }
         let radius = a.max(b) * frame.largest();
@@ -67,6 +66,13 @@ impl Ellipse {
             count += 1.0;
         }
     }
+}
+
+/// Round `center` to a place: all the way where that is the beginning, to a nanometre.
+fn round(contour: &mut Contour, center: Place, turn: Turn, sweep: f64, to: Place) {
+    let at = contour.at();
+    let is_back = libm::hypot(to.0 - at.0, to.1 - at.1) < 1.0;
+    if sweep.abs() > PI && is_back { contour.circle(center, turn) } else { contour.arc(center, turn, to) }
 }
 
 /// How far from one angle to the next, counter-clockwise, in radians; all the way round where they
@@ -95,7 +101,7 @@ pub(super) fn bulge(frame: &Frame, contour: &mut Contour, from: Place, to: Place
     let sweep = 4.0 * libm::atan(bulge);
     if frame.similar().is_some() {
         let turn = if bulge > 0.0 { frame.turn() } else { frame.turn().reversed() };
-        contour.arc(frame.place(center), turn, frame.place(to));
+        round(contour, frame.place(center), turn, sweep, frame.place(to));
         return;
     }
     Ellipse { center, axes: ((radius, 0.0), (0.0, radius)), from: start, sweep }.follow(frame, contour);

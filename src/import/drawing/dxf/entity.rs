@@ -84,7 +84,7 @@ impl Sheet {
             return Err(Refusal::TooMany);
         }
         let layer = Some(entity.layer()).filter(|layer| layer != "0").unwrap_or_else(|| scope.layer.clone());
-        if dxf.hidden.contains(&layer) || entity.whole(60)? == 1 {
+        if dxf.hidden.contains(&layer.to_uppercase()) || entity.whole(60)? == 1 {
             self.leave("entities that are invisible or on a layer that is off or frozen");
             return Ok(());
         }
@@ -149,8 +149,10 @@ impl Sheet {
         let (columns, rows) = (entity.whole(70)?.max(1), entity.whole(71)?.max(1));
         let (across, up) = (entity.real_or(44, 0.0)?, entity.real_or(45, 0.0)?);
         let (sin, cos) = libm::sincos(radians(angle));
-        let most = i64::try_from(MOST).unwrap_or(i64::MAX);
-        if columns.saturating_mul(rows) > most {
+        // Each copy takes time, whatever is in it.
+        let copies = usize::try_from(columns.saturating_mul(rows)).unwrap_or(usize::MAX);
+        self.drawn = self.drawn.saturating_add(copies);
+        if self.drawn > MOST {
             return Err(Refusal::TooMany);
         }
         for row in 0..rows {

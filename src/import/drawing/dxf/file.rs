@@ -150,7 +150,7 @@ impl<'a> Dxf<'a> {
                     let is_off = record.whole(62).map_err(no_number)? < 0;
                     let is_frozen = record.whole(70).map_err(no_number)? & 1 != 0;
                     if is_off || is_frozen {
-                        dxf.hidden.extend(record.text(2));
+                        dxf.hidden.extend(record.text(2).map(|name| name.to_uppercase()));
                     }
                 }
                 ("BLOCKS", "BLOCK") => {

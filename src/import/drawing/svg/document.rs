@@ -65,6 +65,8 @@ pub(super) struct Document {
     pub(super) hidden: u64,
     pub(super) texts: u64,
     pub(super) images: u64,
+    /// Shapes whose strokes are to keep their width however they are scaled.
+    pub(super) unscaled: u64,
     /// The program that wrote it, where it says so.
     pub(super) generator: Option<String>,
 }
@@ -84,6 +86,7 @@ impl Document {
             hidden: 0,
             texts: 0,
             images: 0,
+            unscaled: 0,
             generator: generator(&xml),
         };
         let mut inserts = Vec::new();
@@ -139,20 +142,27 @@ impl Document {
                 // KiCad puts a text that nobody sees beside the strokes of its letters.
                 let is_clear = node.attribute("opacity").is_some_and(|opacity| opacity.parse() == Ok(0.0));
                 self.texts += if tag == "text" && !is_clear { shows } else { 0 };
+                self.unscaled += if is_shape && keeps_width(&node) { shows } else { 0 };
                 self.images += if matches!(tag, "image" | "foreignObject") { shows } else { 0 };
             }
             if tag == "g" {
-                self.name_group(&node, text, inserts);
+                self.name_group(name, &node, text, inserts)?;
             }
         }
         Ok(())
     }
 
-    fn name_group(&mut self, node: &roxmltree::Node<'_, '_>, text: &str, inserts: &mut Vec<(usize, String)>) {
+    fn name_group(
+        &mut self,
+        name: &str,
+        node: &roxmltree::Node<'_, '_>,
+        text: &str,
+        inserts: &mut Vec<(usize, String)>,
+    ) -> Result<(), Error> {
         let id = node.attribute("id");
         let label = node.attribute((INKSCAPE, "label"));
         let is_layer = node.attribute((INKSCAPE, "groupmode")) == Some("layer");
-        let Some(called) = label.filter(|_| is_layer).or(id).or(label) else { return };
+        let Some(called) = label.filter(|_| is_layer).or(id).or(label) else { return Ok(()) };
         // Fritzing's `board` holds the edge, and may hold all else.
         let is_board = called.eq_ignore_ascii_case("board");
         let rank = match (role_of(called).is_some() && !is_board, is_layer || is_board) {
@@ -169,14 +179,27 @@ impl Document {
                 let at = text.get(start..).filter(|rest| rest.starts_with('<')).and_then(|rest| {
                     rest[1..].find(|c: char| !(c.is_alphanumeric() || c == ':')).map(|end| start + 1 + end)
                 });
-                let Some(at) = at else { return };
+                let Some(at) = at else { return Ok(()) };
                 let key = format!("voromill-group-{at}");
                 inserts.push((at, key.clone()));
                 key
             }
         };
-        self.groups.insert(key, (called.to_owned(), rank));
+        let before = self.groups.insert(key.clone(), (called.to_owned(), rank));
+        match before.filter(|(before, _)| role_of(before) != role_of(called)) {
+            Some((before, _)) => {
+                let what = format!("`{before}` and `{called}` are groups of one id, `{key}`");
+                Err(Error::content(name, what, "give each an id of its own"))
+            }
+            None => Ok(()),
+        }
     }
+}
+
+/// Whether an element itself says that its stroke is as wide however it is scaled.
+fn keeps_width(node: &roxmltree::Node<'_, '_>) -> bool {
+    let says = |text: &str| text.contains("non-scaling-stroke");
+    node.attribute("vector-effect").is_some_and(says) || node.attribute("style").is_some_and(says)
 }
 
 fn parse<'a>(name: &str, text: &'a str) -> Result<roxmltree::Document<'a>, Error> {

@@ -86,9 +86,11 @@ pub fn read(name: &str, bytes: &[u8], options: &Options) -> Result<Drawing, Erro
         warnings
             .push(diagnostic::SVG_LEFT_OUT.warning(format!("left out of {name}: {}", left_out.join(", "))));
     }
-    if !painted.effects.is_empty() {
-        let kinds: Vec<String> =
-            painted.effects.iter().map(|(what, count)| format!("{count} {what}")).collect();
+    let unscaled = (document.unscaled > 0)
+        .then(|| format!("{} strokes that keep their width when scaled", document.unscaled));
+    let kinds = painted.effects.iter().map(|(what, count)| format!("{count} {what}"));
+    let kinds: Vec<String> = kinds.chain(unscaled).collect();
+    if !kinds.is_empty() {
         let message = format!("not followed in {name}: {}", kinds.join(", "));
         warnings.push(diagnostic::SVG_EFFECTS.warning(message));
     }

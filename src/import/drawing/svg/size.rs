@@ -7,8 +7,20 @@ use crate::import::diagnostic;
 use crate::import::drawing::{Options, Place, Unit};
 use crate::import::error::Error;
 
-/// Units that are of one length on any page, and px, which CSS makes a 96th inch.
-const ABSOLUTE: [&str; 7] = ["mm", "cm", "in", "pt", "pc", "q", "px"];
+/// Units that are of one length on any page, and px, which CSS makes a 96th inch; in nanometres.
+const ABSOLUTE: [(&str, f64); 7] = [
+    ("mm", 1e6),
+    ("cm", 1e7),
+    ("in", 25.4e6),
+    ("pt", 25.4e6 / 72.0),
+    ("pc", 25.4e6 / 6.0),
+    ("q", 0.25e6),
+    ("px", 25.4e6 / 96.0),
+];
+
+/// Sizes of a page that differ by less, as a part, are one. Chosen: `usvg` rounds to single
+/// precision.
+const SAME: f64 = 1e-4;
 
 /// From a page of pixels to nanometres.
 #[derive(Clone, Debug)]
@@ -37,16 +49,18 @@ impl Size {
             return Ok(Self { pixel, name: "as given".to_owned(), height });
         }
         let sizes = ["width", "height"].map(|side| root.attribute(side).map(measure));
-        let told = sizes.iter().flatten().find(|(_, unit)| ABSOLUTE.contains(&unit.as_str()));
-        if let Some((number, unit)) = told {
-            // A quarter of a millimetre is no unit to `usvg`, which takes the view box instead.
-            let quarter = (unit == "q").then(|| {
-                let is_width = sizes[0].as_ref().is_some_and(|size| size.1 == "q");
-                let pixels = if is_width { f64::from(tree.size().width()) } else { height };
-                Unit::of_nanometres(number * 0.25e6 / pixels)
-            });
-            let pixel = quarter.flatten().unwrap_or(Unit::PIXEL);
-            return Ok(Self { pixel, name: unit.clone(), height });
+        let length = |(number, unit): &(f64, String)| {
+            let (_, nanometres) = ABSOLUTE.into_iter().find(|(known, _)| known == unit)?;
+            Some((number * nanometres, unit.clone()))
+        };
+        let pixels = [f64::from(tree.size().width()), height];
+        let told =
+            sizes.iter().zip(pixels).find_map(|(size, pixels)| Some((length(size.as_ref()?)?, pixels)));
+        if let Some(((length, name), pixels)) = told {
+            // What `usvg` does not read, as `1 mm`, `1MM` or `4q`, it takes from the view box.
+            let ratio = length / pixels / Unit::PIXEL.nanometres();
+            let own = Unit::of_nanometres(length / pixels).filter(|_| (ratio - 1.0).abs() > SAME);
+            return Ok(Self { pixel: own.unwrap_or(Unit::PIXEL), name, height });
         }
         let is_plain = |size: &Option<(f64, String)>| {
             size.as_ref().is_some_and(|(number, unit)| unit.is_empty() && number.is_finite())
