@@ -847,7 +847,7 @@ fn what_all_is_made_from_is_never_replaced() {
         &["draw", "a-F_Cu.gbr", "--format", "png", "-o", "./a-F_Cu.gbr"],
         &["probe", "a-F_Cu.gbr", "-o", "a-F_Cu.gbr", "--dialect", "linuxcnc"],
         &["pocket", "a-F_Cu.gbr", "--tool", "endmill:0.1mm", "--depth", "0.1mm", "-o", "a-F_Cu.gbr"],
-        &["diff", "a.nc", "b.nc", "-o", "b.nc"],
+        &["diff", "a.nc", "b.nc", "--tool", "endmill:0.2mm", "-o", "b.nc"],
         &["level", "a.nc", "--map", "map.xyz", "-o", "map.xyz"],
     ] {
         let last = |name: &&&str| path(name).is_file();

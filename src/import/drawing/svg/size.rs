@@ -18,6 +18,8 @@ const ABSOLUTE: [(&str, f64); 7] = [
     ("px", 25.4e6 / 96.0),
 ];
 
+const HINT: Words = Words::of("set its unit: {unit} mm, {unit} in, {unit} 0.1mm or {unit} 90dpi");
+
 /// Sizes of a page that differ by less, as a part, are one. Chosen: `usvg` rounds to single
 /// precision.
 const SAME: f64 = 1e-4;
@@ -56,6 +58,10 @@ impl Size {
         let pixels = [f64::from(tree.size().width()), height];
         let told =
             sizes.iter().zip(pixels).find_map(|(size, pixels)| Some((length(size.as_ref()?)?, pixels)));
+        if told.is_some() && sizes.iter().flatten().any(|(_, unit)| unit == "%") {
+            let what = "the size of the drawing is unknown: one side of its page is a part of something";
+            return Err(Error::content(name, what, HINT));
+        }
         if let Some(((length, name), pixels)) = told {
             // What `usvg` does not read, as `1 mm`, `1MM` or `4q`, it takes from the view box.
             let ratio = length / pixels / Unit::PIXEL.nanometres();
@@ -67,8 +73,7 @@ impl Size {
         };
         if !sizes.iter().any(is_plain) {
             let what = "the size of the drawing is unknown: its page has no width in mm, in or px";
-            let hint = Words::of("set its unit: {unit} mm, {unit} in, {unit} 0.1mm or {unit} 90dpi");
-            return Err(Error::content(name, what, hint));
+            return Err(Error::content(name, what, HINT));
         }
         let message = "the width of the page has no unit: it is read as pixels of 1/96 inch";
         warnings.push(diagnostic::SVG_UNIT_ASSUMED.warning(message));
