@@ -643,8 +643,30 @@ fn rings_that_nothing_meets_can_be_left_out() {
         format!("(segment (start 5 5) (end 5.5 5) (width 0.1) (layer {layer}) (net {net}))")
     };
     let disc = std::f64::consts::PI;
+    let pad = |shape: &str, x: &str| {
+        format!(
+            "(footprint X (layer F.Cu) (at {x} 5) (pad 1 smd {shape} (at 0 0) (size 0.6 0.4) (layers F.Cu) (net 1 A)))"
+        )
+    };
+    let through = |x: [&str; 2], y: &str| {
+        format!("(segment (start {} {y}) (end {} {y}) (width 0.1) (layer F.Cu) (net 1))", x[0], x[1])
+    };
+    let curve = "(arc (start 3 5) (mid 5 5.02) (end 7 5) (width 0.1) (layer F.Cu) (net 1))";
+    // A millimetre long, with its ends; as much of one of four lies outside the ring, twice.
+    let aside = 0.1 + std::f64::consts::PI * 0.0025;
+    let passed = disc + aside + 0.1;
     let cases = [
         (via(""), [0.0, 0.0], "nothing meets it"),
+        (via("") + &through(["3", "7"], "5"), [passed, 0.0], "a track passes through"),
+        (via("") + curve, [passed, 0.0], "an arc does"),
+        (
+            via("") + &through(["4.5", "5.5"], "5.7"),
+            [aside, 0.0],
+            "a track beside the hole, as KiCad plots it",
+        ),
+        (via("") + &pad("circle", "5"), [disc, 0.0], "a round pad on it"),
+        (via("") + &pad("oval", "5.6"), [disc, 0.0], "an oval one that reaches the hole"),
+        (via("") + &pad("rect", "5.6"), [disc, 0.0], "a rectangle that does"),
         (via("(keep_end_layers)"), [disc, disc], "the outer ones are kept"),
         (via("") + &track(1, "B.Cu"), [0.0, disc], "a track on the back"),
         (via("(zone_layer_connections \"F.Cu\")"), [disc, 0.0], "a zone, as the board says"),

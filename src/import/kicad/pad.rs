@@ -69,20 +69,24 @@ impl Reader<'_> {
             function: Some(function(kind).to_owned()),
         };
         self.count("pads");
+        let (w, h) = (bore.width, bore.height);
+        let (x, y) = (((w - h) / 2).max(Nm::ZERO), ((h - w) / 2).max(Nm::ZERO));
+        let (from, to, diameter) = (own.place((-x, -y)), own.place((x, y)), w.min(h));
         for side in self.layers(node).sides() {
             let look = Look::on(node, side);
             let Some(drawing) = self.look(look, &own, bore, plated)? else { continue };
             if leaves_rings_out(node) {
                 self.check(node, &drawing)?;
-                self.bare_rings.push(Ring::new(side, place, drawing, attributes.clone(), node));
+                let hole = match diameter / 2 {
+                    radius if from == to => Shape::Disc { center: from, radius },
+                    radius => Shape::Stroke { from, to, radius },
+                };
+                self.bare_rings.push(Ring::new(side, hole, drawing, attributes.clone(), node));
             } else {
                 self.put(side, node, drawing, &attributes)?;
             }
         }
-        let (w, h) = (bore.width, bore.height);
-        let (x, y) = (((w - h) / 2).max(Nm::ZERO), ((h - w) / 2).max(Nm::ZERO));
-        let path = way(own.place((-x, -y)), own.place((x, y)));
-        self.drill(node, path, w.min(h), if plated { Plating::Plated } else { Plating::NonPlated })
+        self.drill(node, way(from, to), diameter, if plated { Plating::Plated } else { Plating::NonPlated })
     }
 
     fn bore(&self, node: Node<'_>) -> Result<Bore, Error> {

@@ -4,8 +4,7 @@
 //! is known when all tracks and zones of the board are read.
 
 use super::tree::Node;
-use crate::board::{Attributes, Axis, Feature, Shape, Side};
-use crate::geometry::{Nm, Point, Rect};
+use crate::board::{Attributes, Axis, FLATTEN, Feature, Shape, Side};
 
 /// What a thing draws, each piece with its axis.
 pub(super) type Drawing = Vec<(Shape, Axis)>;
@@ -14,11 +13,13 @@ pub(super) type Drawing = Vec<(Shape, Axis)>;
 #[derive(Clone, Debug)]
 pub(super) struct Ring {
     pub(super) side: Side,
-    pub(super) at: Point,
-    pub(super) reach: Nm,
+    /// What is drilled in it; a point where nothing is.
+    hole: Shape,
     pub(super) drawing: Drawing,
     pub(super) attributes: Attributes,
     pub(super) line: u32,
+    /// Whether the board lists the layers where a zone meets it.
+    told: bool,
     /// Whether a zone was said to meet it.
     pub(super) kept: bool,
 }
@@ -26,28 +27,31 @@ pub(super) struct Ring {
 impl Ring {
     pub(super) fn new(
         side: Side,
-        at: Point,
+        hole: Shape,
         drawing: Drawing,
         attributes: Attributes,
         node: Node<'_>,
     ) -> Self {
-        let bounds = drawing.iter().map(|(shape, _)| shape.bounds()).reduce(Rect::union);
-        let reach = bounds.map_or(Nm::ZERO, |bounds| bounds.width().max(bounds.height()) / 2);
         let name = super::layers::copper_name(side);
-        let said = node
-            .find("zone_layer_connections")
-            .is_some_and(|list| list.arguments().any(|layer| layer.text() == name));
-        Self { side, at, reach, drawing, attributes, line: node.line(), kept: said }
+        let list = node.find("zone_layer_connections");
+        let kept = list.is_some_and(|list| list.arguments().any(|layer| layer.text() == name));
+        Self { side, hole, drawing, attributes, line: node.line(), told: list.is_some(), kept }
     }
 
-    /// Whether `feature`, of the same net, reaches it: a track that ends in it, a plane around it.
+    /// Whether `feature`, of the same net, reaches it, as KiCad asks: a track or pad the hole, a
+    /// zone the ring, unless the board says which zones do.
     pub(super) fn meets(&self, feature: &Feature) -> bool {
-        let ends = |p: Point| p.distance(self.at) <= self.reach.to_f64();
-        match (&feature.axis, &feature.shape) {
-            (Axis::Line(from, to), _) => ends(*from) || ends(*to),
-            (Axis::Arc(arc), _) => ends(arc.start) || ends(arc.end),
-            (_, Shape::Polygon(polygon)) => polygon.contains(self.at),
-            _ => false,
-        }
+        let is_zone = feature.axis == Axis::Region;
+        let ring = self.drawing.iter().map(|(shape, _)| shape).filter(|_| is_zone && !self.told);
+        let reached = |own: &Shape| {
+            own.bounds().touches(feature.shape.bounds())
+                && match (&feature.shape, own.polygon(FLATTEN)) {
+                    // A zone may be far larger than what is looked for in it.
+                    (Shape::Polygon(area), _) => own.lies_in(area),
+                    (shape, Some(own)) => shape.lies_in(&own),
+                    (shape, None) => shape.polygon(FLATTEN).is_some_and(|area| own.lies_in(&area)),
+                }
+        };
+        ring.chain([&self.hole]).any(reached)
     }
 }

@@ -44,6 +44,7 @@ impl Reader<'_> {
         let size = self.length(size, 0)?;
         let attributes = self.conductor(node, "ViaPad");
         let layers = self.layers(node);
+        let drill = self.via_drill(node, attributes.net.as_deref())?;
         self.count("vias");
         for side in layers.sides() {
             let layer = node.find("padstack").and_then(|stack| {
@@ -58,27 +59,30 @@ impl Reader<'_> {
             let drawing = vec![(Shape::Disc { center: at, radius: size / 2 }, Axis::Flash(at))];
             if leaves_rings_out(node) {
                 self.check(node, &drawing)?;
-                self.bare_rings.push(Ring::new(side, at, drawing, attributes.clone(), node));
+                let hole = Shape::Disc { center: at, radius: drill / 2 };
+                self.bare_rings.push(Ring::new(side, hole, drawing, attributes.clone(), node));
             } else {
                 self.put(side, node, drawing, &attributes)?;
             }
         }
         if layers.on(Side::Front) && layers.on(Side::Back) {
-            return self.via_hole(node, at, attributes.net.as_deref());
+            return self.via_hole(node, at, drill);
         }
         let message = "a via that ends on an inner layer gets no hole, since inner layers are not milled";
         self.warnings.add(&diagnostic::KICAD_BLIND_VIA, node.place(), message);
         Ok(())
     }
 
-    fn via_hole(&mut self, node: Node<'_>, at: Point, net: Option<&str>) -> Result<(), Error> {
-        let drill = match node.find("drill") {
-            Some(drill) => self.length(drill, 0)?,
-            None => {
-                let of_class = self.via_drills.get(net.unwrap_or_default());
-                of_class.or_else(|| self.via_drills.get("")).copied().unwrap_or(Nm::ZERO)
-            }
-        };
+    /// The size of a via's hole; zero where none is given.
+    fn via_drill(&self, node: Node<'_>, net: Option<&str>) -> Result<Nm, Error> {
+        if let Some(drill) = node.find("drill") {
+            return self.length(drill, 0);
+        }
+        let of_class = self.via_drills.get(net.unwrap_or_default());
+        Ok(of_class.or_else(|| self.via_drills.get("")).copied().unwrap_or(Nm::ZERO))
+    }
+
+    fn via_hole(&mut self, node: Node<'_>, at: Point, drill: Nm) -> Result<(), Error> {
         if drill <= Nm::ZERO {
             let message = "a via without a drill size gets no hole";
             self.warnings.add(&diagnostic::KICAD_VIA_WITHOUT_DRILL, node.place(), message);
