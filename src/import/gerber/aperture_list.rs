@@ -38,6 +38,8 @@ pub struct ApertureList {
     pub file: String,
     pub(super) entries: BTreeMap<u32, Entry>,
     pub(super) format: Option<Format>,
+    /// Whether it contradicts itself in which zeros are left out.
+    pub(super) contradictory: bool,
     /// The unit of the Gerber file's coordinates.
     pub(super) unit: Unit,
     /// Which unit was taken for the sizes, where the list does not say.
@@ -84,7 +86,8 @@ impl ApertureList {
         let unit = prose.unit.or(declared).unwrap_or(size_unit);
         let unit = if unit == "mm" { Unit::Millimetre } else { Unit::Inch };
         let source = Source { design: hashed(&entries), ..source(file, bytes, size_unit, entries.len()) };
-        Some(Self { file: file.to_owned(), entries, format: prose.format, unit, guessed, source })
+        let Prose { format, contradictory, .. } = prose;
+        Some(Self { file: file.to_owned(), entries, format, contradictory, unit, guessed, source })
     }
 
     /// Whether a file named so could be a list: only such are opened unasked.
@@ -176,7 +179,9 @@ mod tests {
 
     #[test]
     fn what_a_line_leaves_open_is_kept_as_the_reason() {
-        let unclear = described("D20 Thermal Round 90 60\nD21 circle 50 30\nD22 round 5\nD22 round 6\n");
+        let unclear = described(
+            "D20 Thermal Round 90 60\nD21 circle 50 30\nD22 round 5\nD22 round 6\nD23 square 60 100\n",
+        );
         assert!(unclear.iter().all(|what| what.contains("unclear")), "{unclear:?}");
     }
 
@@ -190,6 +195,27 @@ mod tests {
         let format = list.format.expect("a format");
         assert_eq!((format.x, format.zeros, format.incremental), ((2, 3), Zeros::Leading, false), "2.3");
         assert!(list.guessed.is_none(), "the unit is named");
+    }
+
+    #[test]
+    fn what_a_line_denies_is_not_said() {
+        let zeros = |prose: &str| {
+            let text = format!("FORMAT 2.3\n{prose}\nD10 ROUND 60\n");
+            let list = ApertureList::read("f.apt", text.as_bytes()).expect("a list");
+            assert_eq!(list.format.is_none(), list.contradictory, "{prose}");
+            list.format.map(|format| format.zeros)
+        };
+        for (prose, expected) in [
+            ("LEADING ZERO SUPPRESSION: ON\nTRAILING ZERO SUPPRESSION: OFF", Some(Zeros::Leading)),
+            ("Suppress trailing zeros: no", Some(Zeros::Leading)),
+            ("Leading zeros omitted: none\nTrailing zeros omitted", Some(Zeros::Trailing)),
+            ("Leading zero suppression off", Some(Zeros::Trailing)),
+            ("Trailing zeros off", Some(Zeros::Trailing)),
+            ("Leading zeros suppressed\nTrailing zeros suppressed", None),
+            ("Suppress trailing zeros: no\nTrailing zeros suppressed", None),
+        ] {
+            assert_eq!(zeros(prose), expected, "{prose}");
+        }
     }
 
     #[test]

@@ -104,6 +104,13 @@ impl<'a> Numbers<'a> {
 
     /// The fault of a file without a number format.
     fn unformatted(&self, is_bare: bool) -> Fault {
+        if let Some(list) = self.list.filter(|list| list.contradictory) {
+            let what =
+                format!("the aperture list {} contradicts itself in which zeros are left out", list.file);
+            let expected = "leading or trailing zeros: `LEADING ZEROS SUPPRESSED` in the list, or `%FSLAX23Y23*%` \
+                            as the first line here";
+            return Fault::new(what, expected).hint("the plot settings of the CAD program show the format");
+        }
         if let Some(list) = self.list {
             let what = format!("neither this file nor its aperture list {} has a number format", list.file);
             let expected =

@@ -10,6 +10,8 @@ pub(super) struct Prose {
     /// None where nothing or several are named.
     pub(super) unit: Option<&'static str>,
     pub(super) format: Option<Format>,
+    /// Whether they contradict each other in which zeros are left out; then there is no format.
+    pub(super) contradictory: bool,
 }
 
 impl Prose {
@@ -28,15 +30,35 @@ impl Prose {
         units.dedup();
         let unit = if let [unit] = units[..] { Some(unit) } else { None };
         let digits = all().filter(|line| line.contains("FORMAT")).find_map(|line| digits(line));
+        // Whether any line says that such zeros are left out, and whether any denies it.
         let says = |what: &str| {
-            let omits =
-                |line: &&String| ["SUPPRESS", "OMIT", "OFF", "REMOVE"].iter().any(|word| line.contains(word));
-            all().filter(omits).any(|line| line.contains(what))
+            let told = all().filter(|line| line.contains(what)).filter_map(|line| omits(line));
+            told.fold([false, false], |[yes, no], omits| [yes || omits, no || !omits])
         };
-        let zeros = if says("TRAILING") { Zeros::Trailing } else { Zeros::Leading };
+        let (leading, trailing) = (says("LEADING"), says("TRAILING"));
+        // Where leading zeros are written, trailing ones may be left out: either way the digits are
+        // aligned at the first.
+        let zeros = match (leading, trailing) {
+            ([true, false], [false, _]) | ([false, false], [false, _]) | ([false, true], [false, true]) => {
+                Some(Zeros::Leading)
+            }
+            ([false, _], [true, false]) | ([false, true], [false, false]) => Some(Zeros::Trailing),
+            _ => None,
+        };
         let incremental = all().any(|line| line.contains("INCREMENTAL") && !line.contains("ABSOLUTE"));
-        Self { unit, format: digits.map(|digits| Format { zeros, incremental, x: digits, y: digits }) }
+        let format = |(zeros, digits)| Format { zeros, incremental, x: digits, y: digits };
+        Self { unit, format: zeros.zip(digits).map(format), contradictory: zeros.is_none() }
     }
+}
+
+/// Whether a line about zeros says that they are left out; none where it says neither.
+fn omits(line: &str) -> Option<bool> {
+    let verb = ["SUPPRESS", "OMIT", "REMOVE"].iter().any(|word| line.contains(word));
+    // `NO.` is a number.
+    let has = |words: &[&str]| {
+        line.split(|c: char| !c.is_ascii_alphanumeric() && c != '.').any(|w| words.contains(&w))
+    };
+    if verb { Some(!has(&["OFF", "NO", "NOT", "NONE"])) } else { has(&["OFF"]).then_some(true) }
 }
 
 /// `2.3`, `2:4`: digits before and after the point.
