@@ -18,7 +18,7 @@ mod union;
 pub use effort::Effort;
 pub use figure::{Area, Drawn, Figure, Line};
 pub use layer::Layer;
-pub use round::{diameter, hole};
+pub use round::{diameter, hole, innermost};
 pub use union::united;
 
 use crate::board::polarity::{self, TooMuch};

@@ -14,7 +14,8 @@ const ROUND: f64 = 20_000.0;
 /// The hole that a figure marks: a dot, a circle or a ring as its inner edge would be drilled, an
 /// obround as a slot; none where it is neither.
 ///
-/// A circle that is drawn by a line is the hole's edge: the line's width does not count.
+/// A circle that is drawn by a line is the hole's edge: the line's width does not count. Where it
+/// leaves nothing inside, a dot is drawn.
 #[must_use]
 pub fn hole(figure: &Figure) -> Option<Hole> {
     let made = |path: Path, diameter: Nm| Hole {
@@ -32,12 +33,34 @@ pub fn hole(figure: &Figure) -> Option<Hole> {
         let kept = if goes { path.clone() } else { Path { segments: Vec::new(), ..path.clone() } };
         return (line.width > Nm::ZERO).then(|| made(kept, line.width));
     }
+    let dot = |middle: Nm| match &figure.drawn {
+        Drawn::Line(line) if line.width >= middle => middle + line.width,
+        Drawn::Line(_) | Drawn::Area(_) => middle,
+    };
     let ring = ring(path)?;
     if let Some((center, diameter)) = circle(&ring) {
-        return Some(made(Path { start: center, segments: Vec::new() }, diameter));
+        return Some(made(Path { start: center, segments: Vec::new() }, dot(diameter)));
     }
     let (from, to, diameter) = obround(&ring)?;
-    Some(made(Path { start: from, segments: vec![Segment::Line { to }] }, diameter))
+    Some(made(Path { start: from, segments: vec![Segment::Line { to }] }, dot(diameter)))
+}
+
+/// Those of `paths`, the contours of one area, that are no circle round another one: of a ring the
+/// inner edge.
+#[must_use]
+pub fn innermost(paths: &[Path]) -> Vec<&Path> {
+    let of_paths: Vec<Option<(Point, Nm)>> = paths.iter().map(diameter).collect();
+    let mut circles: Vec<(Point, Nm)> = of_paths.iter().flatten().copied().collect();
+    circles.sort_by_key(|(center, _)| center.x);
+    let reach = Nm::from_f64(ROUND);
+    let goes_round = |(center, wide): (Point, Nm)| {
+        let first = circles.partition_point(|(other, _)| other.x < center.x - reach);
+        let mut near = circles[first..].iter().take_while(|(other, _)| other.x <= center.x + reach);
+        near.any(|&(other, narrow)| narrow < wide && center.distance(other) <= ROUND)
+    };
+    let is_inner =
+        |(path, circle): (_, &Option<(Point, Nm)>)| (!circle.is_some_and(goes_round)).then_some(path);
+    paths.iter().zip(&of_paths).filter_map(is_inner).collect()
 }
 
 /// The diameter of the circle that a closed path is, with its middle; none where it is none.
@@ -164,6 +187,19 @@ mod tests {
             assert!(off < 2_000.0, "{end:?} is {off} nm off: {ends:?}");
         }
         assert!((found.diameter - Nm::from_um(1000)).abs() < Nm::from_um(2), "{}", found.diameter);
+    }
+
+    #[test]
+    fn a_line_that_fills_its_circle_draws_a_dot() {
+        let round = |width: i64| {
+            let path = Path::circle(at(0, 0), Nm::from_um(250), Turn::Clockwise);
+            let line = Line { path, width: Nm::from_um(width), painted: None };
+            hole(&figure(Drawn::Line(line))).expect("a hole").diameter
+        };
+        for (width, diameter) in [(0, 500), (400, 500), (500, 1000), (600, 1100)] {
+            let off = (round(width) - Nm::from_um(diameter)).abs();
+            assert!(off < Nm::from_um(1), "a line of {width} µm: {off} off {diameter} µm");
+        }
     }
 
     #[test]

@@ -245,12 +245,12 @@ fn holes(build: &mut Build, (file, source): (&Found, &Source), figures: &[Figure
     let mut holes: Vec<Hole> = Vec::new();
     let mut left_out: Vec<&Figure> = Vec::new();
     for figure in figures {
-        // One figure may draw many circles.
+        // One figure may draw many circles. Of a ring the inner edge is drilled.
         let single: Vec<Figure> = match &figure.drawn {
             artwork::Drawn::Area(area) if area.contours.len() > 1 => {
                 let of = |path: &Course| artwork::Area { contours: vec![path.clone()], rule: area.rule };
                 let one = |path| Figure { drawn: artwork::Drawn::Area(of(path)), ..figure.clone() };
-                area.contours.iter().map(one).collect()
+                artwork::innermost(&area.contours).into_iter().map(one).collect()
             }
             artwork::Drawn::Area(_) | artwork::Drawn::Line(_) => vec![figure.clone()],
         };

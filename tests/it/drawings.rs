@@ -378,6 +378,38 @@ fn bare_lines_are_an_edge_with_holes() {
 }
 
 #[test]
+fn of_a_ring_the_hole_is_what_it_leaves_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("holes.svg");
+    let circle =
+        |r: f64| format!("M{},20 a{r},{r} 0 1 0 {w},0 a{r},{r} 0 1 0 -{w},0 z", 20.0 - r, w = 2.0 * r);
+    let rings = format!("<path fill-rule='evenodd' d='{} {} {}'/>", circle(2.0), circle(0.5), circle(1.0));
+    let cases = [
+        (rings, 1_000_000, "a ring and a circle round it"),
+        (
+            "<circle cx='20' cy='20' r='.25' fill='none' stroke='#000' stroke-width='.5'/>".to_owned(),
+            1_000_000,
+            "a line that fills its circle",
+        ),
+        (
+            "<circle cx='20' cy='20' r='.5' fill='none' stroke='#000' stroke-width='.3'/>".to_owned(),
+            1_000_000,
+            "a line round a hole",
+        ),
+    ];
+    for (drawn, diameter, what) in cases {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='40mm' viewBox='0 0 40 40'>\
+             <g id='F.Cu'><rect width='9' height='9'/></g><g id='drill'>{drawn}</g></svg>"
+        );
+        std::fs::write(&path, text).expect("written");
+        let loaded = load(std::slice::from_ref(&path), &Selection::default()).expect("a board");
+        let sizes: Vec<i64> = loaded.board.holes.iter().map(|hole| hole.diameter.get()).collect();
+        assert_eq!(sizes, [diameter], "{what}");
+    }
+}
+
+#[test]
 fn copper_drawn_as_svg_is_the_same_copper() {
     let out = tempfile::tempdir().expect("a folder");
     let blinker = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards/blinker");
