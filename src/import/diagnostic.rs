@@ -68,7 +68,7 @@ diagnostics! {
 
     DRAWING_LAYERS: Warning =
         "drawing-layers-aside",
-        "Layers of a drawing with unknown names, beside known ones",
+        "Layers of a drawing that are ignored, with names that are unknown or may mean copper",
         "layers named as in KiCad: F.Cu, Edge.Cuts, drill",
         "name one layer behind the file, FILE#LAYER; what it is of a board say {front}, {outline} or {drill}";
 

@@ -9,7 +9,7 @@ use super::drawing::{self, Drawing, Part, Parts, split};
 use super::error::Error;
 use super::format::Kind;
 use super::gerber::Image;
-use super::layers::Role;
+use super::layers::{Role, is_surely_aside};
 use super::selection::{Need, Selection};
 use super::{naming, outline, picture};
 use crate::artwork::{self, Figure, Layer};
@@ -148,6 +148,15 @@ fn add(build: &mut Build, named: Named, selection: &Selection, need: Need) -> Re
     if !unknown.is_empty() {
         let listed = unknown.join(", ");
         let message = format!("layers of {} with unknown names are ignored: {listed}", file.name);
+        build.warnings.push(diagnostic::DRAWING_LAYERS.warning(message));
+    }
+    let doubtful = |(name, what): &(String, Option<&str>)| {
+        what.filter(|what| !is_surely_aside(name, what)).map(|what| format!("{} ({what})", called(name)))
+    };
+    let doubtful: Vec<String> = parts.aside.iter().filter_map(doubtful).collect();
+    if !doubtful.is_empty() {
+        let listed = doubtful.join(", ");
+        let message = format!("layers of {} are ignored for what their names say: {listed}", file.name);
         build.warnings.push(diagnostic::DRAWING_LAYERS.warning(message));
     }
     for (name, what) in &parts.aside {

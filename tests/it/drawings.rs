@@ -317,6 +317,61 @@ fn groups_within_groups_of_a_known_name_do_not_leave_it() {
 }
 
 #[test]
+fn copper_that_is_taken_for_something_else_is_missed_aloud() {
+    let group = |id: &str, inner: &str| format!("<g id='{id}'>{inner}</g>");
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("amp.svg");
+    let square = |x: u32| format!("<rect x='{x}' y='4' width='1' height='1'/>");
+    let read = |groups: &[String]| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' width='40mm' height='10mm' viewBox='0 0 40 10'>{}{}</svg>",
+            group("F.Cu", &square(1)),
+            groups.concat()
+        );
+        std::fs::write(&path, text).expect("written");
+        let mut loaded = load(std::slice::from_ref(&path), &Selection::default()).expect("a board");
+        loaded.warnings.retain(|warning| warning.code() == "drawing-layers-aside");
+        loaded
+    };
+    let usual = [
+        "F.SilkS",
+        "F.Mask",
+        "B.Paste",
+        "F.Fab",
+        "F.CrtYd",
+        "Dwgs.User",
+        "In1.Cu",
+        "silkscreen0",
+        "soldermask",
+        "tStop",
+        "tCream",
+        "Top Solder Mask",
+        "TopOverlay",
+        "PCBMask",
+    ];
+    let loaded = read(&usual.map(|name| group(name, &square(3))));
+    assert!(loaded.warnings.is_empty(), "{:?}", loaded.warnings);
+    let roles = [
+        ("pads", "pad master"),
+        ("GND-plane", "inner copper"),
+        ("mid", "inner copper"),
+        ("traces-in1", "inner copper"),
+        ("unmasked", "solder mask"),
+    ];
+    for (name, role) in roles {
+        let loaded = read(&[group(name, &square(3))]);
+        let messages: Vec<&str> = loaded.warnings.iter().map(|w| w.message.as_str()).collect();
+        let expected = format!("layers of amp.svg are ignored for what their names say: `{name}` ({role})");
+        assert_eq!(messages, [expected]);
+    }
+    let within = |outer: &str, inner: &str| read(&[group(outer, &group(inner, &square(3)))]).board;
+    let fronts = |board: Board| board.front.expect("copper").features.len();
+    assert_eq!(fronts(within("mask-group", "F.Cu")), 2, "copper in a group of masks");
+    assert_eq!(fronts(within("silkscreen", "top")), 1, "what only sounds so");
+    assert!(within("mask-group", "B.Cu").back.is_some(), "on the other side");
+}
+
+#[test]
 fn a_text_that_nobody_sees_is_not_missed() {
     let said = |opacity: &str| {
         let square = "<rect width='10' height='10'/>";

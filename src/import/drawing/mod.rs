@@ -17,6 +17,6 @@ mod unit;
 pub(in crate::import) use contour::{Contour, Place};
 pub(in crate::import) use read::split;
 pub use read::{FORMATS, Format, looks_like, open, read};
-pub(in crate::import) use roles::{Part, Parts, layer, role_of};
+pub(in crate::import) use roles::{Part, Parts, layer, leaves, role_of};
 pub use sheet::{Drawing, Options};
 pub use unit::Unit;

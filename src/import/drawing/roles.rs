@@ -138,3 +138,13 @@ pub(in crate::import) fn role_of(name: &str) -> Option<Role> {
     let role = layers::role_by_name(&format!("{}.layer", name.replace('.', "_")), 0);
     role.filter(|role| !matches!(role, Role::Group(_)))
 }
+
+/// Whether a group `name` within one `above` is a layer by itself: copper, edge or holes by KiCad's
+/// name, where the other is set aside.
+pub(in crate::import) fn leaves(name: &str, above: &str) -> bool {
+    let is_milled = matches!(
+        layers::role_by_sure_name(&format!("{name}.gbr")),
+        Some(Role::Copper(_) | Role::Outline | Role::Drill)
+    );
+    is_milled && matches!(role_of(above), Some(Role::Other(_)))
+}

@@ -23,8 +23,8 @@ use crate::board::Side;
 
 pub(super) use function::{Function, PARTIAL_HOLES, function_of, loaded_name, plating, role_by_function};
 pub(super) use names::{
-    draws_holes, is_gerber_by_extension, kind_by_name, role_by_extension, role_by_name, role_by_sure_name,
-    side_by_name,
+    draws_holes, is_gerber_by_extension, is_surely_aside, kind_by_name, role_by_extension, role_by_name,
+    role_by_sure_name, side_by_name,
 };
 pub(super) use words::shared_start;
 

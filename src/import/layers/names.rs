@@ -1,7 +1,7 @@
 //! What the name of a file says: by its ending, its extension, or a word.
 
 use super::Role;
-use super::tables::{ASIDE, COUNTED, EXTENSIONS, KICAD, PARTS, SIDE_WORDS, SIDES, WORDS};
+use super::tables::{ASIDE, COUNTED, EXTENSIONS, KICAD, NEVER_MILLED, PARTS, SIDE_WORDS, SIDES, WORDS};
 use super::words::words;
 use crate::board::Side;
 
@@ -78,6 +78,21 @@ pub(in crate::import) fn kind_by_name(name: &str, shared: usize) -> Option<Role>
     role_by_sure_name(name)
         .or_else(|| by_words(words(stem.get(shared..).unwrap_or(stem), false)))
         .filter(|role| !matches!(role, Role::Group(_) | Role::Other("inner copper" | "mechanical layer")))
+}
+
+/// Whether a layer that is set aside is so beyond doubt: by KiCad's name, or by a whole word for
+/// what nobody mills.
+pub(in crate::import) fn is_surely_aside(name: &str, role: &str) -> bool {
+    let normal = normal(name);
+    let whole = |word: &String| NEVER_MILLED.contains(&word.trim_end_matches(|c: char| c.is_ascii_digit()));
+    match role {
+        "inner copper" => normal.ends_with("_cu"),
+        "pad master" | "mechanical layer" => false,
+        _ => {
+            kicad_ending(&normal).is_some()
+                || [false, true].iter().any(|&in_capitals| words(name, in_capitals).iter().any(whole))
+        }
+    }
 }
 
 /// The side that a name tells, of a layer of any kind: by KiCad's ending, the extension, or the

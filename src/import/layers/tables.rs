@@ -147,6 +147,34 @@ pub(super) const ASIDE: &[(&str, Role)] = &[
     ("plane", Role::Other("inner copper")),
 ];
 
+/// Whole words, also with a number behind, by which a name means a layer that nobody mills, and no
+/// copper that only sounds like one: `soldermask`, and not `unmasked`.
+pub(super) const NEVER_MILLED: [&str; 23] = [
+    "mask",
+    "soldermask",
+    "solderresist",
+    "resist",
+    "stop",
+    "paste",
+    "solderpaste",
+    "pastemask",
+    "cream",
+    "stencil",
+    "silk",
+    "silkscreen",
+    "legend",
+    "overlay",
+    "assembly",
+    "assy",
+    "fab",
+    "document",
+    "documentation",
+    "drawing",
+    "drawings",
+    "drillmap",
+    "courtyard",
+];
+
 /// Whole words for the side of a layer of any kind.
 pub(super) const SIDE_WORDS: &[(Side, &[&str])] = &[
     (Side::Front, &["top", "front", "toplayer", "oben", "oberseite", "dessus", "superior", "sopra"]),

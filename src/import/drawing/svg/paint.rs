@@ -17,7 +17,7 @@ use crate::board::polarity::{FillRule, Polarity, TooMuch};
 use crate::board::{FLATTEN, Words};
 use crate::geometry::{self, Nm, Segment};
 use crate::import::drawing::layers::Layers;
-use crate::import::drawing::{Contour, Options, Place};
+use crate::import::drawing::{Contour, Options, Place, leaves};
 use crate::import::error::Error;
 
 /// What is fainter is not seen. Chosen: a twentieth of the ink.
@@ -156,7 +156,7 @@ impl Painted {
         if above.ink == Ink::Copper
             && let Some((name, rank)) = above.document.group(group.id())
         {
-            if rank.counts_in(above.rank) {
+            if rank.counts_in(above.rank) || leaves(name, &above.layer) {
                 (scope.layer, scope.rank, scope.also) = (name.to_owned(), rank, None);
             } else if are_both_sides(name, &above.layer) {
                 scope.also = Some(name.to_owned());
