@@ -32,7 +32,6 @@ impl Settings {
             }
             Need::Kept => !is_cleared,
             Need::Boring => self.drill_bore || self.alignment.is_some(),
-            Need::BoredHoles => self.drill_bore,
             Need::Tiles => self.tiles.is_some(),
             Need::Alignment => self.alignment.is_some(),
             Need::ThroughHoles => self.drill_tips,

@@ -9,8 +9,6 @@ pub(super) enum Need {
     Kept,
     /// Holes that are bored.
     Boring,
-    /// The same of the board itself: pins are no matter.
-    BoredHoles,
     /// More than one tile.
     Tiles,
     /// Holes for pins.
@@ -33,7 +31,7 @@ impl Need {
         match self {
             Self::Passes => "set {width}, {passes} or {clear} too",
             Self::Kept => "leave {clear} out",
-            Self::Boring | Self::BoredHoles => "leave {drill-bore}=false out",
+            Self::Boring => "leave {drill-bore}=false out",
             Self::Tiles => "set {tile} too",
             Self::Alignment => "set {alignment-holes} too",
             Self::ThroughHoles => "leave {drill-depth} out",

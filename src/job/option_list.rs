@@ -416,7 +416,6 @@ macro_rules! job_options {
     /// wander
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
-    #[needs(BoredHoles)]
     #[changes(DRILLING)]
     pub drill_bore_from: Option<Length>,
 

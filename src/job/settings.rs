@@ -200,6 +200,7 @@ impl Settings {
             approach: APPROACH.min(drill_safe),
             ..heights(deep, checked::step("drill-peck", options.drill_peck, deep)?)
         };
+        let bores = options.drill_bore || options.drill_bore_from.is_some();
         // A tool's own table may say how deep it goes.
         let deep: Vec<Nm> = isolation.iter().map(|cutting| cutting.heights.cut).collect();
         let is_one = options.kerf.is_none() && deep.iter().all(|depth| *depth == deep[0]);
@@ -226,7 +227,7 @@ impl Settings {
             drill_tip_angle: workshop.point,
             drill_dwell: options.drill_dwell.map_or(0, |wait| wait.milliseconds),
             drill_tolerance: drilling::drill_tolerance(&options)?,
-            drill_bore: options.drill_bore,
+            drill_bore: bores,
             drill_bore_from: given("drill-bore-from", options.drill_bore_from)?,
             drill_bore_tool: match &options.drill_bore_tool {
                 Some(choice) => {
@@ -258,10 +259,11 @@ impl Settings {
             tab_width: positive("tab-width", options.tab_width)?,
             tab_top,
             couplings: false,
-            // Said though nobody gave them, so that programs tell how deep cuts and the cutout are
-            // and where all tiles lie.
+            // Said though nobody gave them, so that programs tell how deep cuts and the cutout are,
+            // what is bored and where all tiles lie.
             options: Options {
                 depth,
+                drill_bore: Some(bores),
                 cutout_depth: Some(Length(cutout_depth)),
                 tile_spacing: tiles.map(|(_, spacing)| Length(spacing)).or(options.tile_spacing),
                 ..written
