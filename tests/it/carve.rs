@@ -1,6 +1,6 @@
 //! Carving: what programs mill beside the ideal surface, and spoilt programs that are found out.
 
-use voromill::board::polarity::union;
+use voromill::board::polarity::{offset, union};
 use voromill::geometry::{Nm, Point, Polygon, Rect};
 use voromill::import::text::text;
 use voromill::job::{Art, Carving, Engraving, Inlay, Options, Settings, carve};
@@ -269,6 +269,26 @@ fn walls_of_wide_places_are_cut_without_an_end_mill() {
     let spoilt = text.replacen(&format!("{corner}\n"), "", 1);
     let judged = made.judge(&[("spoilt.ngc", &spoilt)], PITCH).expect("a program");
     assert!(judged.findings.iter().any(|found| found.name == "carved-too-shallow"), "{:?}", judged.findings);
+}
+
+/// What the walls leave between them stays as it is: no way from one wall to the next leads
+/// through.
+#[test]
+fn what_is_left_between_walls_is_not_cut_through() {
+    let depth = Nm::from_um(300);
+    let how = Carving { max_depth: Some(depth), ..HOW };
+    for letter in ["8", "B", "O"] {
+        let made = engraving(letter, letters(letter), "vbit:0.1mm:60deg", &how);
+        let tool: ToolKind = "vbit:0.1mm:60deg".parse().expect("a tool");
+        // Beside its tip, and where the flank is as good as at the floor.
+        let cleared = tool.width_at(depth) / 2 + Nm::from_um(50) + Nm::from_um(6);
+        let areas = letters(letter);
+        let left = areas.iter().flat_map(|area| offset(area, -cleared, Nm::from_um(1)));
+        let expected: f64 = left.map(|left| left.area_mm2()).sum();
+        let judged = made.verify(Some(Nm::from_um(20))).expect("a program");
+        let found = judged.left_mm2;
+        assert!((found - expected).abs() < 0.03 * expected, "{letter}: {found} of {expected} mm² are left");
+    }
 }
 
 #[test]

@@ -10,7 +10,7 @@
 //!
 //! Loops are level sets of the distance from the areas' edges. From one to the next the mill stays
 //! down: the way lies between them, and is as long as they are apart. So does the V-bit where the
-//! way from one of its lines to the next leads over the floor.
+//! way from one of its lines to the next leads over a floor that was cleared.
 
 use std::ops::ControlFlow;
 use std::slice;
@@ -51,6 +51,8 @@ pub struct Floor {
     pub(super) rims: Vec<Path>,
     /// Where the V-bit may be at that depth, and a little beyond: as far as fitted lines may stray.
     pub(super) room: Room,
+    /// Whether it is cleared, so that a way over it cuts nothing.
+    pub(super) is_cleared: bool,
     /// How far loops are apart, in nanometres.
     step: f64,
     tolerance: Nm,
@@ -104,7 +106,7 @@ impl Floor {
         let fine = Nm::from_f64(tip.to_f64() * FINE_STEP);
         let mut rims = walls.rims;
         rims.extend(fill(areas, axis, &rest, (rim + fine, fine, tip), tolerance));
-        Self { levels, strokes, rims, step: step.to_f64(), ..walls }
+        Self { levels, strokes, rims, step: step.to_f64(), is_cleared: true, ..walls }
     }
 
     /// What is to be done where nothing clears what is wide: the V-bit cuts the walls.

@@ -252,7 +252,7 @@ fn mill(head: &mut Head, mut lines: Vec<Line>, start: Point, settings: &Carving<
             && at.distance(line.path.start) <= longest
             && settings.floor.is_some_and(|floor| {
                 let [from, to] = [at, line.path.start].map(|p| settings.placement.undo(p));
-                floor.room.leads(from, to)
+                floor.is_cleared && floor.room.leads(from, to)
             });
         if stays_down {
             head.feed_to(Position::over(line.path.start, -line.levels[0].depth), settings.tool.feed);
