@@ -1,10 +1,10 @@
 //! Rims of wide places among the ways of the axis: branches that come to a rim lead on along it.
 //!
 //! ```text
-//!   ╲                ╱    A branch into a corner of the area ends where the rim has a corner, but for the micrometre that it goes
-//!    ╲              ╱     on to. There the rim is parted, and the branch led to it: a trail goes round the rim, out into each
-//!     ●────rim─────●      corner and back, without a retract.
-//!     │            │
+//!   ╲                ╱    A branch into a corner of the area ends where the rim has a corner, but
+//!    ╲              ╱     for the micrometre that it goes on to. There the rim is parted, and the
+//!     ●────rim─────●      branch led to it: a trail goes round the rim, out into each corner and
+//!     │            │      back, without a retract.
 //! ```
 
 use std::collections::BTreeMap;
