@@ -253,20 +253,18 @@ fn dialect(text: &str) -> Result<String, String> {
 
 /// A length of something that is there.
 fn above_zero(text: &str) -> Result<Nm, String> {
-    match text.parse::<Nm>() {
-        Ok(length) if length > Nm::ZERO => Ok(length),
-        Ok(_) => Err("expected a length above zero".to_owned()),
-        Err(error) => Err(error.to_string()),
-    }
+    length_if(text, |length| length > Nm::ZERO, "above zero")
 }
 
 /// A length that may be zero.
 fn not_below_zero(text: &str) -> Result<Nm, String> {
-    match text.parse::<Nm>() {
-        Ok(length) if length >= Nm::ZERO => Ok(length),
-        Ok(_) => Err("expected a length of zero or more".to_owned()),
-        Err(error) => Err(error.to_string()),
-    }
+    length_if(text, |length| length >= Nm::ZERO, "of zero or more")
+}
+
+/// A length that fits, which is so.
+fn length_if(text: &str, fits: fn(Nm) -> bool, so: &str) -> Result<Nm, String> {
+    let length = text.parse::<Nm>().map_err(|error| error.to_string())?;
+    if fits(length) { Ok(length) } else { Err(format!("expected a length {so}")) }
 }
 
 /// Lengths between commas, where they are so many.

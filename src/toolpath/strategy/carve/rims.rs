@@ -1,11 +1,14 @@
 //! Rims of wide places among the ways of the axis: branches that come to a rim lead on along it.
 //!
 //! ```text
-//!   ╲                ╱    A branch into a corner of the area ends where the rim has a corner, but
-//!    ╲              ╱     for the micrometre that it goes on to. There the rim is parted, and the
-//!     ●────rim─────●      branch led to it: a trail goes round the rim, out into each corner and
-//!     │            │      back, without a retract.
+//!   ╲                ╱
+//!    ╲              ╱     ╲ ╱  branches into the corners of the area
+//!     ●────rim─────●      ●    where they come to the rim, which is parted there
+//!     │            │
 //! ```
+//!
+//! A branch ends where the rim has a corner, but for the micrometre that it goes on to, and is led
+//! to it: a trail goes round the rim, out into each corner and back, without a retract.
 
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
