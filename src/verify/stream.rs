@@ -3,19 +3,15 @@
 
 use std::collections::BTreeMap;
 
-use crate::gcode::read::{Listing, Tally, lines};
+use crate::gcode::read::{Listing, Odd, Tally, lines};
 
 use super::Program;
 
 /// Something about a line that some controllers take otherwise than it reads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Feature {
-    /// Coordinates and no code.
-    Bare,
-    /// Several codes.
-    Several,
-    /// An arc by its radius.
-    Radius,
+    /// What it does when it is run.
+    Run(Odd),
     /// Code and a comment in parentheses.
     BesideComment,
     /// Code behind a comment in parentheses.
@@ -34,23 +30,20 @@ pub(super) enum Feature {
     Long,
     /// A comment within a comment in parentheses.
     Nested,
-    /// An arc whose line does not say where it ends: a full circle.
-    Endless,
+    /// A number of more digits than Grbl takes.
+    HighNumber,
 }
 
 /// So many characters of a line Grbl keeps, blanks and comments not counted (protocol.c of 1.1h).
 const KEPT: usize = 79;
 
+/// The highest number of a line that Grbl takes (gcode.h of 1.1h).
+const HIGHEST: u64 = 10_000_000;
+
 /// What the lines of a program have, without the user's own G-code, by kind.
 pub(super) fn features(text: &str, listing: &Listing) -> Vec<(Feature, Tally)> {
-    let followed = [
-        (Feature::Bare, listing.bare),
-        (Feature::Several, listing.several),
-        (Feature::Radius, listing.radius),
-        (Feature::Endless, listing.endless),
-    ];
     let mut found: BTreeMap<Feature, Tally> =
-        followed.into_iter().filter_map(|(feature, tally)| Some((feature, tally?))).collect();
+        listing.odd.iter().map(|(&odd, &tally)| (Feature::Run(odd), tally)).collect();
     let mut last = None;
     for (line, text) in (1_u32..).zip(lines(text)).filter(|(_, text)| !is_plain(text)) {
         for feature in Text::of(text).features(&mut last) {
@@ -118,6 +111,7 @@ impl Text {
             here(code.starts_with('%'), Feature::Percent),
             here(code.chars().count() > KEPT, Feature::Long),
             here(self.is_nested, Feature::Nested),
+            here(number.is_some_and(|number| number > HIGHEST), Feature::HighNumber),
         ];
         among.into_iter().flatten()
     }

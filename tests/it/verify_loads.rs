@@ -539,7 +539,7 @@ fn a_line_that_a_controller_takes_otherwise_than_it_reads_is_told() {
         (&["grbl"], "%", "a line with `%`: {} stops there with an error"),
         (
             &["grbl"],
-            "N1000001 G17 G21 G40 G49 G80 G90 G94 G54 G0 X0000.000000000 Y0000.000000000 Z0005.00000000000",
+            "N1000001 G17 G21 G40 G49 G94 G90 G54 G0 X0000000.000000000 Y0000.000000000 Z0005.00000000000",
             "a line of more than 79 characters: {} stops there with an error",
         ),
     ];

@@ -62,10 +62,23 @@ fn what_grbl_does_not_take_is_told() {
     for (line, what) in [
         ("(drill (long))", "a comment within a comment"),
         ("G0 Z3\nG1 F100\nG2 I1 J0\n", "an arc without X and Y"),
+        ("G90 G91 G0 X5\nG90", "codes of which one alone can hold"),
+        ("G80 G0 Z5", "G80 beside a motion"),
+        ("G0 Z5 H1", "a word for which none of its codes asks"),
+        ("G1 Z5 P2 F100", "a word for which none of its codes asks"),
+        ("G0 Z5 A0", "a word for which none of its codes asks"),
+        ("G4 S3", "a dwell without P"),
+        ("T256", "a tool above T255"),
+        ("N10000001 G0 Z5", "a line with a number above 10000000"),
     ] {
         let changed = whole.replacen("\nM5\n", &format!("\n{line}\nM5\n"), 1);
         let (names, said) = found(&PAUSED.board, program(&changed));
         assert!(names.contains(&"word-not-taken") && said.contains(what), "{line}: {said}");
+    }
+    for line in ["G4 P3", "T255 M9", "N10000000 G0 Z5", "G10 L20 P1 Z5", "G17 G21 G90 G94 G0 Z5"] {
+        let changed = whole.replacen("\nM5\n", &format!("\nG0 Z5\n{line}\nM5\n"), 1);
+        let (names, said) = found(&PAUSED.board, program(&changed));
+        assert!(!names.contains(&"word-not-taken"), "{line}: {said}");
     }
     let whole_turn = whole.replacen("\nM5\n", "\nG0 Z3\nG0 X5 Y5\nG1 F100\nG2 X5 I1 J0\nM5\n", 1);
     let (_, said) = found(&PAUSED.board, program(&whole_turn));

@@ -1,5 +1,6 @@
 //! What a program does: its motions, and what had to be taken for granted to follow them.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use crate::geometry::{Nm, Point, Turn};
@@ -141,10 +142,27 @@ pub struct Tally {
     pub count: u32,
 }
 
-impl Tally {
-    pub(super) fn count(tally: &mut Option<Self>, line: u32) {
-        tally.get_or_insert(Self { line, count: 0 }).count += 1;
-    }
+/// Something about a line, as it is run, that some controllers take otherwise than it reads.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Odd {
+    /// Coordinates and no code.
+    Bare,
+    /// Several codes.
+    Several,
+    /// Several codes of which one alone can hold: G90 and G91.
+    Contrary,
+    /// G80 beside a motion.
+    Cancels,
+    /// An arc by its radius.
+    Radius,
+    /// An arc whose line does not say where it ends: a full circle.
+    Endless,
+    /// A word for which none of its codes asks.
+    Unasked,
+    /// A dwell without P.
+    Untimed,
+    /// A tool above T255.
+    HighTool,
 }
 
 /// A dwell whose time is behind P: controllers differ in its unit.
@@ -215,14 +233,8 @@ pub struct Listing {
     pub codes: Vec<Coded>,
     /// How numbers count, and the line from which on they do, in the order in which it is run.
     pub countings: Vec<(u32, Counting)>,
-    /// Its lines with coordinates and no code.
-    pub bare: Option<Tally>,
-    /// Its lines with several codes.
-    pub several: Option<Tally>,
-    /// Its arcs by R.
-    pub radius: Option<Tally>,
-    /// Arcs whose lines do not say where they end: full circles.
-    pub endless: Option<Tally>,
+    /// Lines that some controllers take otherwise than they read.
+    pub odd: BTreeMap<Odd, Tally>,
     /// The first line, and why, from which on places are not the numbers of the text one for one (a
     /// subprogram, an expression, a moved zero), or a feed holds for a motion as a whole; none
     /// where the text can be changed line by line.
@@ -245,6 +257,11 @@ impl Listing {
             Some(code) => code.count += 1,
             None => self.codes.push(Coded { letter, key, line, count: 1 }),
         }
+    }
+
+    /// Counts a line.
+    pub(super) fn is_odd(&mut self, odd: Odd, line: u32) {
+        self.odd.entry(odd).or_insert(Tally { line, count: 0 }).count += 1;
     }
 
     /// Counts a dwell.

@@ -135,6 +135,29 @@ pub(super) enum Meaning {
     Refused(&'static str),
 }
 
+impl Meaning {
+    /// The modal group: of each, a line has one code at most (NIST RS274/NGC §3.4, LinuxCNC, Grbl).
+    /// None for codes outside of all, and for those that nothing here depends on.
+    pub(super) const fn group(self) -> Option<u8> {
+        Some(match self {
+            Self::Dwell | Self::Special(_) | Self::MachineCoordinates => 0,
+            Self::Motion(_) | Self::EndCurve => 1,
+            Self::Plane(_) => 2,
+            Self::Distance(_) => 3,
+            Self::Centers(_) => 4,
+            Self::FeedMode(_) => 5,
+            Self::Unit(_) => 6,
+            Self::Compensation(_) => 7,
+            Self::ToInitial(_) => 10,
+            Self::System(_) => 12,
+            Self::Stop(_) | Self::End => 24,
+            Self::ToolChange | Self::SetTool => 26,
+            Self::Spindle(_) | Self::Backwards => 27,
+            _ => return None,
+        })
+    }
+}
+
 /// What the code of a letter means, `key` being ten times its number.
 pub(super) fn meaning(letter: char, key: u32) -> Meaning {
     if letter == 'G' { of_g(key) } else { of_m(key) }

@@ -28,7 +28,9 @@ mod variables;
 
 pub use error::ReadError;
 pub use flow::read;
-pub use listing::{Coded, Counting, Dwell, Listing, Motion, Note, Place, Spindle, Stop, Tally, Waits, Way};
+pub use listing::{
+    Coded, Counting, Dwell, Listing, Motion, Note, Odd, Place, Spindle, Stop, Tally, Waits, Way,
+};
 pub use own_code::{without_own_code, without_unlevelled};
 pub use source::lines;
 pub use spelling::{Spelled, spelled};

@@ -21,7 +21,7 @@
 //! Smoothieware (bb41e99), Marlin 2, RepRapFirmware 3.5.3, Klipper (84104bb).
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, found, often};
-use crate::gcode::read::{Coded, Tally};
+use crate::gcode::read::{Coded, Odd, Tally};
 use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 use crate::verify::stream::Feature;
@@ -132,23 +132,28 @@ const NOT_TAKEN: &str = "does not take the line, and asks for another";
 const LINES: &[LineRule] = &[
     LineRule {
         controllers: &["marlin", "klipper"],
-        feature: Feature::Bare,
+        feature: Feature::Run(Odd::Bare),
         what: "coordinates in a line without a code",
         does: "passes over them",
     },
     LineRule {
         controllers: &["marlin", "klipper"],
-        feature: Feature::Several,
+        feature: Feature::Run(Odd::Several),
         what: "several codes in a line",
         does: "runs the first alone",
     },
     LineRule {
         controllers: &["smoothieware"],
-        feature: Feature::Radius,
+        feature: Feature::Run(Odd::Radius),
         what: "an arc with R",
         does: "does not read R, and cuts another arc or none",
     },
-    LineRule { controllers: &["klipper"], feature: Feature::Radius, what: "an arc with R", does: STOPS },
+    LineRule {
+        controllers: &["klipper"],
+        feature: Feature::Run(Odd::Radius),
+        what: "an arc with R",
+        does: STOPS,
+    },
     LineRule {
         controllers: &["marlin", "klipper"],
         feature: Feature::BesideComment,
@@ -193,8 +198,44 @@ const LINES: &[LineRule] = &[
     },
     LineRule {
         controllers: &["grbl"],
-        feature: Feature::Endless,
+        feature: Feature::Run(Odd::Endless),
         what: "an arc without X and Y",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl", "grblhal", "fluidnc", "linuxcnc"],
+        feature: Feature::Run(Odd::Contrary),
+        what: "a line with codes of which one alone can hold",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl", "grblhal", "fluidnc"],
+        feature: Feature::Run(Odd::Cancels),
+        what: "G80 beside a motion",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl"],
+        feature: Feature::Run(Odd::Unasked),
+        what: "a line with a word for which none of its codes asks",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl", "linuxcnc"],
+        feature: Feature::Run(Odd::Untimed),
+        what: "a dwell without P",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl"],
+        feature: Feature::Run(Odd::HighTool),
+        what: "a tool above T255",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl"],
+        feature: Feature::HighNumber,
+        what: "a line with a number above 10000000",
         does: STOPS,
     },
     LineRule { controllers: &["grbl"], feature: Feature::Percent, what: "a line with `%`", does: STOPS },

@@ -5,7 +5,7 @@ use crate::gcode::read::block::Word;
 use crate::gcode::read::error::ReadError;
 use crate::gcode::read::expression::index;
 use crate::gcode::read::frame::Plane;
-use crate::gcode::read::listing::{Tally, Way};
+use crate::gcode::read::listing::{Odd, Way};
 use crate::gcode::read::meaning::Distance;
 use crate::geometry::{Nm, Point, Turn};
 
@@ -50,12 +50,12 @@ impl Machine {
             return Err(run.error(word, "expected the centre in the plane of the arc"));
         }
         if ![a, b].iter().any(|&axis| run.block.get(AXES[axis]).is_some()) {
-            Tally::count(&mut self.listing.endless, run.line());
+            self.listing.is_odd(Odd::Endless, run.line());
         }
         let (start, end) = ([from_a.to_f64(), from_b.to_f64()], [to_a.to_f64(), to_b.to_f64()]);
         let center = match run.block.get('R') {
             Some(word) => {
-                Tally::count(&mut self.listing.radius, run.line());
+                self.listing.is_odd(Odd::Radius, run.line());
                 let radius = Nm::new(self.scaled(run, word)?).to_f64();
                 by_radius(start, end, radius, turn).map_err(|what| run.error(word, what))?
             }

@@ -14,7 +14,7 @@ use super::block::{Block, Word};
 use super::error::ReadError;
 use super::expression::index;
 use super::frame::{Axis, Plane};
-use super::listing::{Counting, Listing, Place, Spindle, Stop, Tally, Waits};
+use super::listing::{Counting, Listing, Odd, Place, Spindle, Stop, Waits};
 use super::meaning::{Distance, FeedMode, Meaning, Mode, Special, meaning};
 use super::source::Pointer;
 use super::variables::Variables;
@@ -154,6 +154,7 @@ impl Machine {
         self.remarks(run);
         let orders = self.orders(run)?;
         self.settings(run, orders.dwell)?;
+        self.oddities(run, &orders);
         if orders.change_tool {
             self.tool = self.selected;
         }
@@ -219,9 +220,9 @@ impl Machine {
         }
         let orders = block.orders.len();
         if orders == 0 && block.first("XYZ").is_some() {
-            Tally::count(&mut self.listing.bare, line);
+            self.listing.is_odd(Odd::Bare, line);
         } else if orders > 1 {
-            Tally::count(&mut self.listing.several, line);
+            self.listing.is_odd(Odd::Several, line);
         }
         if block.optional {
             self.listing.note(
@@ -229,6 +230,43 @@ impl Machine {
                 line,
                 "a line after `/` is run: with block delete on, the machine skips it",
             );
+        }
+    }
+
+    /// Counts what Grbl and its kind stop at in a line, though its codes are theirs.
+    fn oddities(&mut self, run: Run<'_>, orders: &Orders) {
+        let (line, block) = (run.line(), run.block);
+        let meanings = || block.orders.iter().map(|order| meaning(order.letter, order.key));
+        // Of motions, `orders` has refused two that differ.
+        let cancels = |meaning: &Meaning| *meaning == Meaning::Motion(Mode::None);
+        let mut groups: Vec<u8> =
+            meanings().filter(|meaning| !cancels(meaning)).filter_map(Meaning::group).collect();
+        groups.sort_unstable();
+        if groups.windows(2).any(|pair| pair[0] == pair[1]) {
+            self.listing.is_odd(Odd::Contrary, line);
+        }
+        if meanings().any(|meaning| cancels(&meaning)) && orders.motion != Some(Mode::None) {
+            self.listing.is_odd(Odd::Cancels, line);
+        }
+        // All others are no code of theirs, and told as that.
+        let are_known = meanings().all(|meaning| meaning.group().is_some());
+        let motion = orders.motion.unwrap_or(self.modal.mode);
+        let is_known = matches!(motion, Mode::None | Mode::Rapid | Mode::Feed | Mode::Arc(_) | Mode::Probe);
+        let asks = |letter: char| match letter {
+            'P' => orders.dwell || orders.special == Some(Special::Data),
+            'L' => orders.special == Some(Special::Data),
+            'I' | 'J' | 'K' | 'R' => matches!(motion, Mode::Arc(_)),
+            _ => false,
+        };
+        let unasked = |letter: char| block.get(letter).is_some() && !asks(letter);
+        if are_known && is_known && ("DHIJKLPQR".chars().any(unasked) || !block.others.is_empty()) {
+            self.listing.is_odd(Odd::Unasked, line);
+        }
+        if orders.dwell && block.get('P').is_none() {
+            self.listing.is_odd(Odd::Untimed, line);
+        }
+        if block.get('T').is_some_and(|tool| tool.value > f64::from(u8::MAX)) {
+            self.listing.is_odd(Odd::HighTool, line);
         }
     }
 
