@@ -5,6 +5,7 @@ use clap::{Arg, ArgMatches, Args, Command, FromArgMatches, Id};
 use serde::de::value::Error;
 use serde::de::{DeserializeOwned, IntoDeserializer};
 use voromill::gcode::dialect::{Blend, ToolChange};
+use voromill::geometry::Nm;
 use voromill::job::{
     AreaChoice, DialectChoice, DistanceFor, DrillSide, Drills, Length, MachineChoice, Narrow, Options,
     Origin, OutputName, Overlap, OwnLines, Place, Sites, Strategy, StrategyFor, Tiles, ToolChangeAt,
@@ -90,4 +91,20 @@ pub(super) fn choice<T: DeserializeOwned + Clone + Send + Sync + 'static>() -> i
 /// What an enumeration of the library has for a word.
 pub(super) fn of_word<T: DeserializeOwned>(word: &str) -> Result<T, Error> {
     T::deserialize(word.into_deserializer())
+}
+
+/// A length of something that is there.
+pub(super) fn above_zero(text: &str) -> Result<Nm, String> {
+    length_if(text, |length| length > Nm::ZERO, "above zero")
+}
+
+/// A length that may be zero.
+pub(super) fn not_below_zero(text: &str) -> Result<Nm, String> {
+    length_if(text, |length| length >= Nm::ZERO, "of zero or more")
+}
+
+/// A length that fits, which is so.
+fn length_if(text: &str, fits: fn(Nm) -> bool, so: &str) -> Result<Nm, String> {
+    let length = text.parse::<Nm>().map_err(|error| error.to_string())?;
+    if fits(length) { Ok(length) } else { Err(format!("expected a length {so}")) }
 }

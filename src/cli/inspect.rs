@@ -72,14 +72,15 @@ impl Inspect {
             }
         }
         if let Some(asked) = &self.coupling {
+            let mut are_met = vec![false; asked.len()];
             for layer in &mut inspection.layers {
                 let Some(copper) = loaded.board.copper(layer.side) else { continue };
-                layer.coupling = Some(coupling(copper, loaded.board.outline.as_ref(), &settings, asked)?);
+                let (found, have_met) = coupling(copper, loaded.board.outline.as_ref(), &settings, asked)?;
+                layer.coupling = Some(found);
+                are_met.iter_mut().zip(have_met).for_each(|(before, met)| *before |= met);
             }
-            let is_named =
-                inspection.layers.iter().flat_map(|layer| &layer.coupling).any(|c| !c.nets.is_empty());
-            let mut named = asked.iter().map(ToString::to_string).filter(|pattern| !pattern.is_empty());
-            if let Some(pattern) = named.next().filter(|_| !is_named) {
+            let unmet = asked.iter().zip(are_met).filter(|(_, is_met)| !is_met);
+            if let Some(pattern) = unmet.map(|(pattern, _)| pattern.to_string()).find(|p| !p.is_empty()) {
                 let hint = "compare it with the names that `voromill inspect -v` lists";
                 return Err(Failure::new(format!("no net is called `{pattern}`"), hint));
             }

@@ -9,13 +9,14 @@ use voromill::job::{Length, ToolChoice, Workbench};
 use voromill::toolpath::Tool;
 
 use super::config::Config;
+use super::given::above_zero;
 use super::{Failure, Shared};
 
 /// The tools there are, and their kerf at several depths
 ///
-/// Lists the built-in tools and those of the `[tools.NAME]` tables of voromill.toml (beside PATH,
-/// or here), with their speeds and the kerf of each at several depths. With --depth: the kerf
-/// at that depth; with --kerf: the depth for that kerf.
+/// Lists the built-in tools and those of the `[tools.NAME]` tables of voromill.toml here, with their
+/// speeds and the kerf of each at several depths. With --depth: the kerf at that depth; with --kerf:
+/// the depth for that kerf.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Tools {
@@ -24,11 +25,11 @@ pub(super) struct Tools {
     tools: Vec<ToolChoice>,
 
     /// Depths to show the kerf at, such as 50um,100um [default: 50um,100um,150um,200um]
-    #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
+    #[arg(long, value_name = "LENGTH", value_delimiter = ',', value_parser = length)]
     depth: Vec<Length>,
 
     /// Kerfs to show the depth for, such as 0.15mm
-    #[arg(long, value_name = "LENGTH", value_delimiter = ',')]
+    #[arg(long, value_name = "LENGTH", value_delimiter = ',', value_parser = length)]
     kerf: Vec<Length>,
 
     /// Settings file [default: voromill.toml here, if there]
@@ -69,6 +70,10 @@ impl Tools {
         }
         super::print(&table(&rows))
     }
+}
+
+fn length(text: &str) -> Result<Length, String> {
+    above_zero(text).map(Length)
 }
 
 fn heading(depths: &[Length], kerfs: &[Length]) -> Vec<String> {

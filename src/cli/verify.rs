@@ -19,7 +19,7 @@ use voromill::toolpath::Angle;
 use voromill::topology::Pattern;
 use voromill::verify::{self, Asked, Cutter, Laid, Orientation, Placement, Program, Role, Severity};
 
-use super::given::of_word;
+use super::given::{above_zero, not_below_zero, of_word};
 use super::program_files::{programs, text_of, without_programs};
 use super::{Failure, Shared};
 
@@ -249,22 +249,6 @@ fn tabs(programs: &[Program]) -> Option<u32> {
 fn dialect(text: &str) -> Result<String, String> {
     let known = Dialect::by_name(text).map(|dialect| dialect.name.to_string());
     known.ok_or_else(|| format!("expected one of {}", Dialect::names()))
-}
-
-/// A length of something that is there.
-fn above_zero(text: &str) -> Result<Nm, String> {
-    length_if(text, |length| length > Nm::ZERO, "above zero")
-}
-
-/// A length that may be zero.
-fn not_below_zero(text: &str) -> Result<Nm, String> {
-    length_if(text, |length| length >= Nm::ZERO, "of zero or more")
-}
-
-/// A length that fits, which is so.
-fn length_if(text: &str, fits: fn(Nm) -> bool, so: &str) -> Result<Nm, String> {
-    let length = text.parse::<Nm>().map_err(|error| error.to_string())?;
-    if fits(length) { Ok(length) } else { Err(format!("expected a length {so}")) }
 }
 
 /// Lengths between commas, where they are so many.

@@ -14,7 +14,7 @@ use super::{Error, Settings, plain};
 const STRONGEST: usize = 20;
 
 /// The neighbours among the nets of `copper`, whatever strategy the settings have, with the nets
-/// that `asked` means.
+/// that `asked` means, and which of `asked` mean one.
 ///
 /// # Errors
 ///
@@ -24,16 +24,20 @@ pub fn coupling(
     outline: Option<&Outline>,
     settings: &Settings,
     asked: &[Pattern],
-) -> Result<CouplingEntry, Error> {
+) -> Result<(CouplingEntry, Vec<bool>), Error> {
     let nets = topology::recover(copper, plain::method(settings.asked.topology));
     let (diagram, boundaries) = plain::diagram(copper, &nets, outline, settings)?;
-    let is_asked = |id: &NetId| {
+    let mut have_meant = vec![false; asked.len()];
+    let mut is_asked = |id: &NetId| {
         let names = topology::called(copper, &nets, *id);
-        asked.iter().any(|pattern| pattern.matches_any(&names))
+        let means: Vec<bool> = asked.iter().map(|pattern| pattern.matches_any(&names)).collect();
+        have_meant.iter_mut().zip(&means).for_each(|(before, &means)| *before |= means);
+        means.contains(&true)
     };
-    let asked: Vec<NetId> = (0..).map(NetId).take(nets.nets().len()).filter(is_asked).collect();
+    let asked: Vec<NetId> = (0..).map(NetId).take(nets.nets().len()).filter(|id| is_asked(id)).collect();
     let extents = topology::extents(copper, &nets);
-    Ok(entry(&nets, &extents, (&diagram, &boundaries), settings, (None, &asked)))
+    let entry = entry(&nets, &extents, (&diagram, &boundaries), settings, (None, &asked));
+    Ok((entry, have_meant))
 }
 
 impl Settings {

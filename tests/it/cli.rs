@@ -653,8 +653,9 @@ fn inspect_says_which_nets_are_coupled_and_what_a_limit_helps() {
         figure("voronoi") > figure("as_drawn") && figure("as_drawn") > 0.0,
         "regions lie closer: {coupling}"
     );
-    let unknown = ["inspect", &board, "--coupling=NOBODY"];
-    fails(&out, &unknown, &["no net is called `NOBODY`"], &[]);
+    for unknown in ["--coupling=NOBODY", "--coupling=GND,NOBODY"] {
+        fails(&out, &["inspect", &board, unknown], &["no net is called `NOBODY`"], &[]);
+    }
 }
 
 #[test]
