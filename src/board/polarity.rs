@@ -1,6 +1,6 @@
 //! What clear polarity leaves of the copper, and exact polygon booleans.
 
-use crate::geometry::{Polygon, RectIndex};
+use crate::geometry::{Polygon, Rect, RectIndex};
 
 pub(crate) use super::boolean::of_circles;
 pub use super::boolean::{
@@ -63,25 +63,24 @@ pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuc
     }
     let index = RectIndex::new(clear.iter().map(|(_, polygon)| polygon.bounds()));
     // All is counted before anything is erased: the cheap count first.
-    let size = |polygon: &Polygon| polygon.contours().iter().map(|ring| ring.len() as u64).sum();
-    let sizes: Vec<u64> = clear.iter().map(|(_, polygon)| size(polygon)).collect();
+    let clears: Vec<Clear<'_>> = clear.iter().map(|(_, polygon)| Clear::new(polygon)).collect();
     let mut left = Vec::with_capacity(objects.len());
     let mut cut: Vec<(Feature, Vec<usize>)> = Vec::with_capacity(objects.len());
     let mut vertices = 0;
     for (at, feature) in dark(objects) {
         let mut over = index.touching(feature.shape.bounds());
-        over.retain(|&i| clear[i].0 > at);
-        vertices += over.iter().map(|&i| sizes[i]).sum::<u64>();
+        over.retain(|&i| clear[i].0 > at && may_reach(&feature.shape, clears[i].bounds));
+        vertices += over.iter().map(|&i| clears[i].weight(feature.shape.bounds())).sum::<u64>();
         if vertices > EFFORT {
             return Err(TooMuch);
         }
         cut.push((feature, over));
     }
-    let mut effort = 0;
+    let mut effort = vertices;
     // Features one after another often lie under the same clear objects.
     for same in cut.chunk_by(|(_, a), (_, b)| a == b) {
         let tangle = Tangle::of(clips(&clear, &same[0].1).flat_map(Polygon::contours));
-        effort += tangle.effort() * same.len() as u64;
+        effort += tangle.crowd() * same.len() as u64;
         if effort > EFFORT || tangle.is_too_much() {
             return Err(TooMuch);
         }
@@ -90,6 +89,51 @@ pub fn resolve(objects: Vec<(Feature, Polarity)>) -> Result<Vec<Feature>, TooMuc
         erase(feature, clips(&clear, &over), &mut left);
     }
     Ok(left)
+}
+
+/// A clear object as it is counted.
+struct Clear<'a> {
+    polygon: &'a Polygon,
+    bounds: Rect,
+    vertices: u64,
+}
+
+impl<'a> Clear<'a> {
+    fn new(polygon: &'a Polygon) -> Self {
+        let vertices = polygon.contours().iter().map(|ring| ring.len() as u64).sum();
+        Self { polygon, bounds: polygon.bounds(), vertices }
+    }
+
+    /// How many vertices of it an object with such bounds takes in, those that lie beside it
+    /// counting for less.
+    fn weight(&self, bounds: Rect) -> u64 {
+        /// Vertices of fewer are all counted. Chosen: no fewer are worth looking at one by one.
+        const MANY: u64 = 64;
+        /// What a vertex beside the object costs: measured, 0.13 µs for 1 µs of one at it.
+        const BESIDE: u64 = 8;
+        if self.vertices < MANY || [self.bounds.min(), self.bounds.max()].iter().all(|&p| bounds.contains(p))
+        {
+            return self.vertices;
+        }
+        let points = self.polygon.contours().iter().flatten();
+        let within = points.filter(|&&p| bounds.contains(p)).count() as u64;
+        within + (self.vertices - within) / BESIDE
+    }
+}
+
+/// Whether a shape may reach what lies within `bounds`, which its own touch: a stroke aslant has
+/// most of its own empty.
+fn may_reach(shape: &Shape, bounds: Rect) -> bool {
+    let Shape::Stroke { from, to, radius } = shape else { return true };
+    let way = *to - *from;
+    // Across the stroke, both have an extent.
+    let (x, y) = (way.x.to_f64().abs(), way.y.to_f64().abs());
+    let [offset, opposite] = [bounds.min(), bounds.max()].map(|p| p - *from);
+    let middle = (offset.x + opposite.x, offset.y + opposite.y);
+    let off = (way.x.to_f64() * middle.1.to_f64() - way.y.to_f64() * middle.0.to_f64()).abs() / 2.0;
+    let reach = (y * bounds.width().to_f64() + x * bounds.height().to_f64()) / 2.0;
+    // A nanometre more than any rounding.
+    off <= reach + (radius.to_f64() + 1.0) * (x + y)
 }
 
 /// The dark objects with their places in the sequence.
@@ -131,7 +175,7 @@ fn erase<'a>(feature: Feature, clear: impl ExactSizeIterator<Item = &'a Polygon>
 mod tests {
     use super::super::Axis;
     use super::*;
-    use crate::geometry::{Nm, Point, Rect, Vector, off_segment};
+    use crate::geometry::{Nm, Point, Vector, off_segment};
     use crate::topology::random;
 
     fn at(x: i64, y: i64) -> Point {

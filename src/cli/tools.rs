@@ -14,9 +14,9 @@ use super::{Failure, Shared};
 
 /// The tools there are, and their kerf at several depths
 ///
-/// Lists the built-in tools and those of the `[tools.NAME]` tables of voromill.toml here, with their
-/// speeds and the kerf of each at several depths. With --depth: the kerf at that depth; with --kerf:
-/// the depth for that kerf.
+/// Lists the built-in tools and those of the `[tools.NAME]` tables of voromill.toml here, with
+/// their speeds and the kerf of each at several depths. With --depth: the kerf at that depth; with
+/// --kerf: the depth for that kerf.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Tools {

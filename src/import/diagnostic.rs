@@ -266,6 +266,12 @@ diagnostics! {
         "a last point equal to the first",
         "look at the edge of this region: a straight line closes it";
 
+    REGION_WINDS_TWICE: Warning =
+        "region-winds-twice",
+        "A contour that winds twice round a part of what it encloses",
+        "holes that run the other way round than the contour, and contours that do not cross themselves",
+        "look at this region: if that part is a hole, export the layer with another program";
+
     FLASH_IN_REGION: Warning =
         "flash-in-region",
         "A flash inside a region",

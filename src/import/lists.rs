@@ -58,9 +58,12 @@ impl Gathered {
     /// Reads a Gerber file, with the list beside it where it needs one.
     pub(super) fn read_gerber(&self, file: &Found) -> Result<Image, Error> {
         let options = Options::default();
-        match self.list_for(file)? {
-            Some(list) => gerber::read_beside(&file.name, &file.bytes, list, &options),
-            None => gerber::read(&file.name, &file.bytes, &options),
+        let alone = || gerber::read(&file.name, &file.bytes, &options);
+        match self.list_for(file) {
+            Ok(Some(list)) => gerber::read_beside(&file.name, &file.bytes, list, &options),
+            Ok(None) => alone(),
+            // Which one it is matters to what draws with apertures alone.
+            Err(ambiguous) => alone().map_err(|_| ambiguous),
         }
     }
 }

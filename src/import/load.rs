@@ -99,7 +99,7 @@ fn of_files(paths: &[PathBuf], selection: &Selection, need: Need) -> Result<Load
         .into_iter()
         .flatten()
         .chain(assigned.drill.iter().copied());
-    build.aperture_lists(&gathered, read.map(|index| &gathered.files[index]))?;
+    build.aperture_lists(&gathered, read.map(|index| &gathered.files[index]));
     let used = |list: &ApertureList| build.sources.contains(list.source());
     let unused = gathered.lists.iter().filter(|list| !used(list)).map(|list| list.file.clone()).collect();
     let ignored =
@@ -140,7 +140,7 @@ pub fn load_copper(path: &Path, side: Side) -> Result<Loaded, Error> {
         read_gerber(&gathered, &found, "a copper layer")?
     };
     build.copper(&found, image, side);
-    build.aperture_lists(&gathered, [&found])?;
+    build.aperture_lists(&gathered, [&found]);
     build.require_copper(&[&found])?;
     Ok(Loaded { board: build.board, sources: build.sources, warnings: build.warnings, ignored: Vec::new() })
 }
@@ -298,16 +298,12 @@ impl Build {
     }
 
     /// Lists the aperture lists that `files` draw with.
-    fn aperture_lists<'a>(
-        &mut self,
-        gathered: &'a Gathered,
-        files: impl IntoIterator<Item = &'a Found>,
-    ) -> Result<(), Error> {
+    fn aperture_lists<'a>(&mut self, gathered: &'a Gathered, files: impl IntoIterator<Item = &'a Found>) {
         for file in files {
-            let source = gathered.list_for(file)?.map(ApertureList::source);
+            // What can be read though there are several draws with none.
+            let source = gathered.list_for(file).ok().flatten().map(ApertureList::source);
             self.sources.extend(source.filter(|source| !self.sources.contains(source)).cloned());
         }
-        Ok(())
     }
 
     /// What the copper tells about where holes should be.

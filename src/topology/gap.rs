@@ -1,15 +1,13 @@
 //! The narrowest gap between two nets of a layer: what tool a board asks for.
 
-use std::ops::ControlFlow;
-
 use rayon::prelude::*;
 
 use crate::board::Copper;
-use crate::geometry::Nm;
+use crate::geometry::{Met, Nm};
 
-use super::Nets;
 use super::contact::{Bodies, Narrowest};
 use super::nets::Gap;
+use super::{NetId, Nets};
 
 /// How many features one worker takes at least. Chosen as for contact.
 const SHARE: usize = 1024;
@@ -31,13 +29,31 @@ fn search(copper: &Copper, nets: &Nets) -> Option<Gap> {
         return None;
     }
     let bodies = Bodies::new(copper);
+    let one = one_net(&bodies, nets);
     let mut limit = FIRST_LIMIT;
     loop {
-        if let Some(found) = narrowest_within(&bodies, nets, limit) {
+        if let Some(found) = narrowest_within(&bodies, &one, nets, limit) {
             return Some(found.gap(nets));
         }
         limit = limit * 2;
     }
+}
+
+/// The net of all features below each node of the index, where that is one.
+fn one_net(bodies: &Bodies, nets: &Nets) -> Vec<Option<NetId>> {
+    let tree = bodies.index.tree();
+    let mut one: Vec<Option<NetId>> = Vec::with_capacity(tree.nodes());
+    // What is below a node comes before it.
+    for node in 0..tree.nodes() {
+        let mut below = tree.below(node).map(|met| match met {
+            Met::Box(feature) => Some(nets.of(feature)),
+            Met::Node(below) => one[below],
+        });
+        let first = below.next().flatten();
+        let net = first.filter(|_| below.all(|net| net == first));
+        one.push(net);
+    }
+    one
 }
 
 /// A gap between two features.
@@ -60,19 +76,24 @@ impl Found {
     }
 }
 
-fn narrowest_within(bodies: &Bodies, nets: &Nets, limit: Nm) -> Option<Found> {
+fn narrowest_within(bodies: &Bodies, one: &[Option<NetId>], nets: &Nets, limit: Nm) -> Option<Found> {
     let found = bodies.index.order().into_par_iter().with_min_len(SHARE).fold(
         || None,
         |mut best: Option<Found>, feature| {
             let window = bodies.bodies[feature].bounds().inflate(reach(best, limit));
-            let _ = bodies.index.visit(window, |other| {
-                if other > feature && nets.of(feature) != nets.of(other) {
-                    let (a, b) = (&bodies.bodies[feature], &bodies.bodies[other]);
-                    let place = a.narrowest(b, reach(best, limit));
-                    let found = place.map(|place| Found { place, features: (feature, other) });
-                    best = [best, found].into_iter().flatten().reduce(Found::narrower);
+            let own = nets.of(feature);
+            bodies.index.visit_entered(window, |met| match met {
+                // A plane has no gap to itself, however many features it is made of.
+                Met::Node(node) => one[node] != Some(own),
+                Met::Box(other) => {
+                    if other > feature && own != nets.of(other) {
+                        let (a, b) = (&bodies.bodies[feature], &bodies.bodies[other]);
+                        let place = a.narrowest(b, reach(best, limit));
+                        let found = place.map(|place| Found { place, features: (feature, other) });
+                        best = [best, found].into_iter().flatten().reduce(Found::narrower);
+                    }
+                    true
                 }
-                ControlFlow::Continue(())
             });
             best
         },

@@ -49,6 +49,23 @@ fn a_list_is_found_beside_a_file_that_is_named_alone() {
     is_drawn(&loaded, "the file alone");
 }
 
+/// A comment that speaks of an address defines no aperture, and regions need none.
+#[test]
+fn what_draws_with_no_aperture_needs_no_list() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).expect("a file");
+    let (one, two) = ("D10 ROUND 10\nD11 RECTANGLE 60 75\n", "D10 ROUND 12\nD11 RECTANGLE 60 75\n");
+    write("one.apt", one);
+    write("board.gtl", "G04 Board ADDRESS decoder*\n%FSLAX23Y23*%\nG70*\nD10*\nX1000Y1000D03*\nM02*\n");
+    assert!(board(&[folder.path().to_path_buf()]).is_ok(), "the one list is for it");
+    write("two.apt", two);
+    let ambiguous = board(&[folder.path().to_path_buf()]).expect_err("either may be meant").render();
+    assert!(ambiguous.contains("one.apt, two.apt"), "{ambiguous}");
+    write("board.gtl", "%FSLAX23Y23*%\nG70*\nG36*\nX0Y0D02*\nX1000D01*\nY1000D01*\nX0Y0D01*\nG37*\nM02*\n");
+    let loaded = board(&[folder.path().to_path_buf()]).expect("a region needs no list");
+    assert!(loaded.sources.iter().all(|source| source.role != "apertures"), "and none is used");
+}
+
 #[test]
 fn a_list_without_units_is_read_by_its_sizes_and_says_so() {
     let loaded = board(&[folder("protel")]).expect("a board");

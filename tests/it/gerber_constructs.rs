@@ -77,6 +77,7 @@ const CASES: &[Case] = &[
     ("region_contours", 104.0, 2, &[]),
     ("region_cut_in", 84.0, 1, &[]),
     ("region_not_closed", 100.0, 1, &["region-not-closed"]),
+    ("region_winds_twice", 100.0, 1, &["region-winds-twice"]),
     ("region_without_area", DISC, 1, &["nothing-drawn"]),
     ("clear_polarity", 100.0 - 8.0 * PI, 2, &[]),
     ("clear_stroke", LINE - 1.0, 2, &[]),
@@ -91,20 +92,25 @@ const CASES: &[Case] = &[
     ("load_rotation", 8.0, 2, &[]),
     ("load_scaling", 9.0 + PI, 2, &[]),
     ("mirror_image", 11.180_34 + DISC, 1, &[]),
+    ("mirror_image_repeat", 3.0 * PI, 3, &[]),
     ("offset", LINE, 1, &[]),
     ("scale_factor", 20.0 + DISC, 1, &[]),
+    ("scale_factor_repeat", 2.0 * PI, 2, &[]),
     ("axis_select", LINE, 1, &[]),
+    ("axis_select_bars", 6.0, 2, &[]),
     ("image_rotation", 8.0, 1, &[]),
     ("image_rotation_repeat", 6.0 * PI, 6, &[]),
     ("image_rotation_block", 16.0, 2, &[]),
     ("attributes", 2.0 * PI + LINE, 3, &[]),
     ("attributes_in_comments", 2.0 * PI, 2, &[]),
+    ("block_attributes", 2.0 * PI + 0.5, 3, &[]),
     ("missing_star", LINE, 1, &["missing-star"]),
     ("missing_percent", LINE, 1, &["missing-percent"]),
     ("missing_end", LINE, 1, &["missing-end-of-file"]),
     ("cut_off", LINE, 1, &["missing-end-of-file", "truncated-file"]),
     ("text_after_end", LINE, 1, &["text-after-end"]),
     ("unknown_command", LINE, 1, &["unknown-command"]),
+    ("old_words", 10.0, 1, &["conflicting-units", "unknown-command"]),
     ("conflicting_g71", LINE, 1, &["conflicting-units"]),
     ("negative_hole", PI, 1, &["negative-hole"]),
     ("negative_file", LINE, 1, &["negative-file"]),
@@ -164,6 +170,9 @@ fn transformations_put_copper_in_its_place() {
         ("mirror_image", [-10_500, -500, 500, 5500]),
         ("offset", [4500, -500, 15_500, 500]),
         ("axis_select", [-500, -500, 500, 10_500]),
+        ("axis_select_bars", [-500, 8500, 2500, 11_500]),
+        ("mirror_image_repeat", [-2000, -1000, 10_000, 1000]),
+        ("scale_factor_repeat", [1000, -1000, 8000, 1000]),
         ("image_rotation", [-1000, 8000, 1000, 12_000]),
         ("image_rotation_repeat", [-5000, -1000, 1000, 11_000]),
         ("image_rotation_block", [-11_000, -5000, 1000, 7000]),
@@ -212,6 +221,12 @@ fn attributes_stay_with_what_they_were_set_for() {
     assert_eq!(pins, [(Some("R1"), Some("1")), (Some("R1"), Some("2")), (Some("R1"), None)], "pins");
     let functions: Vec<_> = sets.iter().map(|set| set.function.as_deref()).collect();
     assert_eq!(functions, [Some("ComponentPad"), Some("ComponentPad"), Some("Conductor")], "functions");
+
+    let image = load("block_attributes").expect("it reads");
+    let sets = image.features.iter().map(|f| &image.attributes[f.attributes as usize]);
+    let found: Vec<_> = sets.map(|set| (set.net.as_deref(), set.function.as_deref())).collect();
+    let pad = Some("SMDPad,CuDef");
+    assert_eq!(found, [(Some("GND"), pad), (Some("VCC"), pad), (Some("OWN"), None)], "of flash and object");
 
     let image = load("attributes_in_comments").expect("it reads");
     assert_eq!(image.function.as_deref(), Some("Copper,L2,Bot,Signal"), "from a comment");

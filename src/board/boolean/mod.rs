@@ -183,7 +183,12 @@ impl Tangle {
     }
 
     pub(super) const fn effort(self) -> u64 {
-        self.edges + self.near / NEAR_PAIRS + self.crossings * CROSSING
+        self.edges + self.crowd()
+    }
+
+    /// What it takes beyond its vertices.
+    pub(super) const fn crowd(self) -> u64 {
+        self.near / NEAR_PAIRS + self.crossings * CROSSING
     }
 
     pub(super) fn is_too_much(self) -> bool {

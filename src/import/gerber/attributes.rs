@@ -26,6 +26,8 @@ pub(super) struct Attributes {
     current: Option<u32>,
     sets: Vec<board::Attributes>,
     numbers: FxHashMap<board::Attributes, u32>,
+    /// The sets of objects of blocks that are flashed, by theirs and the flash's.
+    merged: FxHashMap<(u32, u32), u32>,
 }
 
 impl Attributes {
@@ -122,14 +124,44 @@ impl Attributes {
             return current;
         }
         let function = function().map_or_else(|| self.aperture.clone(), |own| own.map(str::to_owned));
-        let set = board::Attributes { function, ..self.object.clone() };
-        let number = self.numbers.get(&set).copied().unwrap_or_else(|| {
+        let number = self.number_of(board::Attributes { function, ..self.object.clone() });
+        self.current = Some(number);
+        number
+    }
+
+    fn number_of(&mut self, set: board::Attributes) -> u32 {
+        self.numbers.get(&set).copied().unwrap_or_else(|| {
             let number = u32::try_from(self.sets.len()).unwrap_or(0);
             self.sets.push(set.clone());
             self.numbers.insert(set, number);
             number
+        })
+    }
+
+    /// The number of the set of an object of a block that is flashed: what it does not have itself
+    /// is that of the flash.
+    pub(super) fn merged(&mut self, object: u32, flash: u32) -> u32 {
+        match (object, flash) {
+            (own, 0) => own,
+            (0, flash) => flash,
+            (object, flash) if object == flash => object,
+            (object, flash) => self.both(object, flash),
+        }
+    }
+
+    fn both(&mut self, object: u32, flash: u32) -> u32 {
+        if let Some(&known) = self.merged.get(&(object, flash)) {
+            return known;
+        }
+        let [own, of_flash] = [object, flash].map(|number| self.sets[number as usize].clone());
+        let is_part = own.component.is_some();
+        let number = self.number_of(board::Attributes {
+            net: own.net.or(of_flash.net),
+            component: own.component.or(of_flash.component),
+            pin: own.pin.or(of_flash.pin.filter(|_| !is_part)),
+            function: own.function.or(of_flash.function),
         });
-        self.current = Some(number);
+        self.merged.insert((object, flash), number);
         number
     }
 

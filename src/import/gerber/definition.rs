@@ -21,7 +21,10 @@ pub(super) struct Definition {
 
 /// The number of an aperture, `D10`, which `text` begins with, and how many bytes it takes.
 fn numbered(text: &[u8]) -> Option<(Number, usize)> {
-    let (number, length) = Number::read(text.strip_prefix(b"D")?)?;
+    let text = text.strip_prefix(b"D")?;
+    // Behind it a name follows, which may begin with a point.
+    let end = text.iter().position(|&b| !b.is_ascii_digit() && !is_blank(b)).unwrap_or(text.len());
+    let (number, length) = Number::read(&text[..end])?;
     Some((number, 1 + length))
 }
 

@@ -72,6 +72,8 @@ pub(super) fn read<'a>(
             let message = format!("%{} is not supported and is ignored", printable(code));
             Command::Remark(&diagnostic::UNKNOWN_COMMAND, message.into())
         }
+        // Ends one: there is none.
+        (b"KO", b"") => return Ok(()),
         (b"KO", _) => return fault("%KO, knockout, is not supported", "%LPC and %LPD"),
         (b"IF", _) => {
             let what = "%IF includes another file, which is not supported";

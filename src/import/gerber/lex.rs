@@ -90,13 +90,13 @@ impl<'a> Iterator for Lexer<'a> {
         if start == self.bytes.len() {
             return None;
         }
-        let comment = self.bytes[start..].starts_with(b"G04") || self.bytes[start..].starts_with(b"G4 ");
+        let is_comment = comment(unnumbered(&self.bytes[start..])).is_some();
         let end = loop {
             match self.bytes.get(self.at) {
                 None => break End::File,
                 Some(b'*') => break End::Star,
                 // A comment may speak of per cents; a `%` that begins a line is none of it.
-                Some(b'%') if !comment || self.bytes[..self.at].ends_with(b"\n") => break End::Percent,
+                Some(b'%') if !is_comment || self.bytes[..self.at].ends_with(b"\n") => break End::Percent,
                 Some(_) => self.step(),
             }
         };
@@ -106,6 +106,22 @@ impl<'a> Iterator for Lexer<'a> {
         }
         Some(Block { text, start, line, percents, end })
     }
+}
+
+/// What G04 says, which `text` begins with; none for another word. Not read as a number, because a
+/// comment may begin with digits: G04 is it as most write it, with any number of zeros (§8.3.3).
+pub(super) fn comment(text: &[u8]) -> Option<&[u8]> {
+    let digits = text.strip_prefix(b"G").or_else(|| text.strip_prefix(b"g"))?;
+    let zeros = digits.iter().take_while(|&&b| b == b'0').count();
+    let rest = digits[zeros..].strip_prefix(b"4")?;
+    (!rest.first().is_some_and(u8::is_ascii_digit)).then_some(rest)
+}
+
+/// `text` behind the number of its block, where it has one: `N10`.
+fn unnumbered(text: &[u8]) -> &[u8] {
+    let Some(rest) = text.strip_prefix(b"N").or_else(|| text.strip_prefix(b"n")) else { return text };
+    let digits = rest.iter().take_while(|b| b.is_ascii_digit()).count();
+    if digits == 0 { text } else { rest[digits..].trim_ascii_start() }
 }
 
 /// The text without line ends, which may stand anywhere in a command.

@@ -117,7 +117,8 @@ pub fn read_beside(name: &str, bytes: &[u8], list: &ApertureList, options: &Opti
 /// alone.
 #[must_use]
 pub fn lacks_apertures(bytes: &[u8]) -> bool {
-    !bytes.windows(3).any(|window| window == b"ADD" || window == b"ABD")
+    let defines = |block: lex::Block<'_>| block.text.starts_with(b"ADD") || block.text.starts_with(b"ABD");
+    !lex::Lexer::new(bytes).any(defines)
 }
 
 /// Whether `bytes` look like a Gerber file: by content, whatever the name.

@@ -17,6 +17,8 @@ pub(super) struct Numbers<'a> {
     /// The unit where nothing says it; none where the number format decides.
     assumed: Option<Unit>,
     format: Option<Format>,
+    /// What G90 or G91 says before there is a format.
+    incremental: Option<bool>,
     unit: Option<Unit>,
     /// Whether MO gave the unit, rather than G70 or G71.
     by_mode: bool,
@@ -34,6 +36,7 @@ impl<'a> Numbers<'a> {
             list,
             assumed,
             format: None,
+            incremental: None,
             unit: None,
             by_mode: false,
             is_guessed: false,
@@ -44,7 +47,8 @@ impl<'a> Numbers<'a> {
 
     /// FS.
     pub(super) fn set_format(&mut self, format: Format, here: &mut Here<'_, '_>) {
-        if self.format.is_some_and(|before| before != format) {
+        let contradicts = self.incremental.take().is_some_and(|before| before != format.incremental);
+        if contradicts || self.format.is_some_and(|before| before != format) {
             let message =
                 "the number format changes within the file; coordinates after it are read with the new one";
             here.warn(&diagnostic::FORMAT_CHANGES, message);
@@ -52,14 +56,12 @@ impl<'a> Numbers<'a> {
         self.format = Some(format);
     }
 
-    /// G90 and G91.
-    pub(super) fn set_incremental(
-        &mut self,
-        incremental: bool,
-        here: &mut Here<'_, '_>,
-    ) -> Result<(), Fault> {
-        self.format = Some(Format { incremental, ..self.format(here)? });
-        Ok(())
+    /// G90 and G91, which may stand before the number format.
+    pub(super) const fn set_incremental(&mut self, incremental: bool) {
+        match &mut self.format {
+            Some(format) => format.incremental = incremental,
+            None => self.incremental = Some(incremental),
+        }
     }
 
     /// MO.
@@ -99,6 +101,9 @@ impl<'a> Numbers<'a> {
             self.format = Some(format?);
         }
         self.format = self.format.or(self.list.and_then(|list| list.format));
+        if let (Some(format), Some(incremental)) = (&mut self.format, self.incremental.take()) {
+            format.incremental = incremental;
+        }
         self.format.ok_or_else(|| self.unformatted(here.is_bare))
     }
 

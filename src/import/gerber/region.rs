@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use crate::board::FLATTEN;
-use crate::board::polarity::{self, Polarity};
-use crate::geometry::{Arc, Circle, Point, Polygon};
+use crate::board::polarity::{self, FillRule};
+use crate::geometry::{Arc, Circle, Point, Polygon, twice_area};
+
+use super::sink::Ink;
 
 /// The contour being drawn.
 #[derive(Debug, Default)]
@@ -13,9 +15,8 @@ pub(super) struct Region {
     /// What arcs of it are parts of.
     circles: Vec<Circle>,
     /// What it began with, which counts for all of it.
-    polarity: Polarity,
+    ink: Ink,
     /// Where it began.
-    line: u32,
     place: Range<usize>,
 }
 
@@ -27,18 +28,19 @@ pub(super) struct Contour {
     pub(super) closed: bool,
     /// Whether it crosses itself so often that its area cannot be worked out in reasonable time.
     pub(super) tangled: bool,
-    pub(super) polarity: Polarity,
-    /// The line on which it began.
-    pub(super) line: u32,
+    /// The area in mm² that it winds round, and round again.
+    pub(super) doubtful: f64,
+    /// What it began with.
+    pub(super) ink: Ink,
     pub(super) place: Range<usize>,
 }
 
 impl Region {
     /// Begins the contour at `from`, unless it has begun.
-    pub(super) fn begin(&mut self, from: Point, polarity: Polarity, line: u32, place: &Range<usize>) {
+    pub(super) fn begin(&mut self, from: Point, ink: Ink, place: &Range<usize>) {
         if self.points.is_empty() {
             self.points.push(from);
-            (self.polarity, self.line, self.place) = (polarity, line, place.clone());
+            (self.ink, self.place) = (ink, place.clone());
         }
     }
 
@@ -68,10 +70,14 @@ impl Region {
             points.pop();
         }
         let tangled = polarity::is_tangled([&points].into_iter());
-        let pieces = if points.len() < 3 || tangled { Vec::new() } else { polarity::clean(&[points]) };
+        let (mut pieces, mut doubtful) = (Vec::new(), 0.0);
+        if points.len() > 2 && !tangled {
+            let contour = [points];
+            pieces = polarity::clean(&contour);
+            doubtful = twice_wound(&contour, &pieces);
+        }
         let pieces = polarity::of_circles(pieces, circles);
-        let (polarity, line, place) = (self.polarity, self.line, self.place.clone());
-        Some(Contour { pieces, closed, tangled, polarity, line, place })
+        Some(Contour { pieces, closed, tangled, doubtful, ink: self.ink, place: self.place.clone() })
     }
 
     /// Whether a contour has begun.
@@ -83,4 +89,16 @@ impl Region {
     pub(super) fn all(&self, test: impl Fn(Point) -> bool) -> bool {
         self.points.iter().copied().all(test)
     }
+}
+
+/// The area in mm² that a contour winds round an even number of times, but not none: programs that
+/// fill what is inside an odd number of times leave it out. `pieces` is what it fills here.
+fn twice_wound(contour: &[Vec<Point>; 1], pieces: &[Polygon]) -> f64 {
+    let filled: i128 = pieces.iter().map(Polygon::twice_area).sum();
+    // Of one that winds round all once, cut-ins included, its own area says as much.
+    if twice_area(&contour[0]).abs() == filled {
+        return 0.0;
+    }
+    let area = |pieces: &[Polygon]| pieces.iter().map(Polygon::area_mm2).sum::<f64>();
+    area(pieces) - area(&polarity::filled(contour, FillRule::EvenOdd))
 }

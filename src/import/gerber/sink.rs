@@ -11,7 +11,7 @@ use super::canvas::{Canvas, Object, Refusal, moved};
 use super::linear::Linear;
 
 /// What the objects of one command have in common.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Ink {
     pub(super) polarity: Polarity,
     /// The number of the attribute set.
@@ -69,9 +69,7 @@ impl Sink {
         let way: Vector = at - Point::default();
         for (feature, polarity) in objects {
             let mut feature = moved(feature, linear, way);
-            if feature.attributes == 0 {
-                feature.attributes = ink.set;
-            }
+            feature.attributes = self.attributes.merged(feature.attributes, ink.set);
             let polarity = if ink.polarity == Polarity::Clear { polarity.toggled() } else { *polarity };
             self.canvas.push((feature, polarity))?;
         }

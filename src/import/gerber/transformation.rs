@@ -81,8 +81,9 @@ impl Change {
 
 /// The transformations in force.
 ///
-/// Of the deprecated ones, axis select, mirror and scale act on coordinates and not on apertures;
-/// image rotation turns both.
+/// Of the deprecated ones, mirror and scale act on coordinates and not on apertures, offsets and
+/// steps; image rotation and, after all others, axis select turn everything (§8.1.2: the order is
+/// MI, SF, OF, IR and AS).
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Transformation {
     mirror: Linear,
@@ -146,13 +147,18 @@ impl Transformation {
     fn update(&mut self) {
         let (mirror, scale) = (self.image_mirror, self.image_scale);
         let stretch = Linear::stretch(mirror.0 * scale.0, mirror.1 * scale.1);
-        self.image = self.image_rotation.after(stretch).after(self.image_swap);
+        self.image = self.turning().after(stretch);
         self.is_identity = self.image == Linear::IDENTITY && self.offset() == Vector::default();
     }
 
     /// What is made of apertures: mirrored, then rotated, then scaled (specification §4.9).
     pub(super) fn of_apertures(&self) -> Linear {
-        self.image_rotation.after(self.load())
+        self.turning().after(self.load())
+    }
+
+    /// What is made of everything, apertures, offsets and steps included.
+    pub(super) fn turning(&self) -> Linear {
+        self.image_swap.after(self.image_rotation)
     }
 
     /// What is made of a block: mirrored, rotated, scaled along the axes of the file. Its objects
@@ -179,10 +185,10 @@ impl Transformation {
             return in_reach(p);
         }
         let way = self.image.vector(p - Point::default());
-        in_reach(Point::default() + way + self.image_rotation.vector(self.offset()))
+        in_reach(Point::default() + way + self.turning().vector(self.offset()))
     }
 
-    /// Which way an offset of the file goes.
+    /// Which way one place of the file lies from another.
     pub(super) fn vector(&self, way: Vector) -> Vector {
         if self.is_identity { way } else { self.image.vector(way) }
     }
@@ -208,11 +214,12 @@ mod tests {
     }
 
     #[test]
-    fn the_image_is_swapped_then_stretched_then_turned() {
+    fn the_image_is_stretched_then_turned_then_swapped() {
         let at = |x: i64, y: i64| Point::new(Nm::new(x), Nm::new(y));
         let place = |commands: &[&str], p| changed(commands).point(p).expect("in reach");
         assert_eq!(place(&["ASAYBX"], at(3, 5)), at(5, 3), "axes exchanged");
-        assert_eq!(place(&["SFA2B1", "ASAYBX"], at(3, 5)), at(10, 3), "the scale is that of the new axes");
+        assert_eq!(place(&["SFA2B1", "ASAYBX"], at(3, 5)), at(5, 6), "the scale is that of the file's axes");
+        assert_eq!(place(&["ASAYBX", "IR90"], at(3, 5)), at(3, -5), "turned left, then exchanged");
         assert_eq!(place(&["IR90", "MIA1B0"], at(3, 5)), at(-5, -3), "mirrored in x, then turned left");
         assert!(changed(&["MIA1"]).mirrors(), "a mirror changes the hand");
     }
@@ -225,6 +232,7 @@ mod tests {
         assert_eq!(way(&["LS2", "LR90", "LMX"]), expected, "in this order");
         assert_eq!(way(&["LMX", "LS2", "LR90"]), expected, "and in that");
         assert_eq!(way(&["SFA7B7"]), Vector::new(Nm::new(10), Nm::new(1)), "SF leaves apertures alone");
+        assert_eq!(way(&["ASAYBX"]), Vector::new(Nm::new(1), Nm::new(10)), "axis select does not");
     }
 
     #[test]

@@ -7,7 +7,7 @@ use crate::import::error::printable;
 use super::command::{Command, Interpolation, Operation, Said, Words};
 use super::fault::Fault;
 use super::format::Unit;
-use super::lex::{Block, Number, is_blank};
+use super::lex::{Block, Number, comment, is_blank};
 use super::quadrants::Quadrants;
 
 /// Adds to `said` what `block` says, up to what cannot be read. Sets `ended` where it ends the
@@ -51,6 +51,10 @@ pub(super) fn read<'a>(block: &Block<'a>, said: &mut Vec<Said<'a>>, ended: &mut 
                     Some(1) => words.operation = Some(Operation::Draw),
                     Some(2) => words.operation = Some(Operation::Move),
                     Some(3) => words.operation = Some(Operation::Flash),
+                    Some(0) => {
+                        let message = "D00 is neither an operation nor an aperture; it is ignored";
+                        said.push(word(Command::Remark(&diagnostic::UNKNOWN_COMMAND, message.into())));
+                    }
                     code => {
                         said.push(word(Command::Select(aperture(code).map_err(|fault| fault.at(&place))?)))
                     }
@@ -133,11 +137,4 @@ fn g_code(number: Number) -> Result<Option<Command<'static>>, Fault> {
             Command::Remark(&diagnostic::UNKNOWN_COMMAND, message.into())
         }
     }))
-}
-
-/// What G04 says; none for another word. Not read as a number, because a comment may begin with
-/// digits.
-fn comment(text: &[u8]) -> Option<&[u8]> {
-    let rest = text.strip_prefix(b"G04").or_else(|| text.strip_prefix(b"G4"))?;
-    (!rest.first().is_some_and(u8::is_ascii_digit)).then_some(rest)
 }

@@ -17,15 +17,7 @@ pub(super) struct Prose {
 impl Prose {
     pub(super) fn of(text: &[String]) -> Self {
         let all = || text.iter().filter(|line| row(0, line, true).is_none() && row(0, line, false).is_none());
-        let words = |line: &str| -> Vec<String> {
-            line.split(|c: char| !c.is_ascii_alphanumeric() && c != '.').map(str::to_owned).collect()
-        };
-        let mut units: Vec<&'static str> =
-            all().flat_map(|line| words(line)).filter_map(|word| unit_of(&word)).collect();
-        // `in` is a word of prose besides.
-        if units.iter().any(|unit| *unit != "in") {
-            units.retain(|unit| *unit != "in");
-        }
+        let mut units: Vec<&'static str> = all().flat_map(|line| units(line)).collect();
         units.sort_unstable();
         units.dedup();
         let unit = if let [unit] = units[..] { Some(unit) } else { None };
@@ -49,6 +41,18 @@ impl Prose {
         let format = |(zeros, digits)| Format { zeros, incremental, x: digits, y: digits };
         Self { unit, format: zeros.zip(digits).map(format), contradictory: zeros.is_none() }
     }
+}
+
+/// The units that a line names. `IN` is a word of prose besides: it is one where nothing else is
+/// said, or of units: `IN`, `UNITS: IN`. None of `METRIC: OFF`.
+fn units(line: &str) -> impl Iterator<Item = &'static str> {
+    let words: Vec<&str> =
+        line.split(|c: char| !c.is_ascii_alphanumeric()).filter(|w| !w.is_empty()).collect();
+    let is_of_units = words.iter().all(|word| matches!(*word, "IN" | "UNIT" | "UNITS" | "ARE"));
+    // What is denied is none.
+    let is_denied = matches!(words[..], [_, "OFF" | "NO"]);
+    let named = move |word: &&str| (*word != "IN" || is_of_units) && !is_denied;
+    words.into_iter().filter(named).filter_map(unit_of)
 }
 
 /// Whether a line about zeros says that they are left out; none where it says neither.

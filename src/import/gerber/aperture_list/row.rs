@@ -164,8 +164,11 @@ impl Row {
             }
             Shape::Round if three => Template::Obround { width: first, height: second, hole },
             Shape::Round => return unclear("it is round, but has two sizes"),
-            Shape::Square if second != Nm::ZERO && second != first && !three => {
-                return unclear("it is square, but has two sizes");
+            Shape::Square if three && second != Nm::ZERO => {
+                Template::Rectangle { width: first, height: second, hole }
+            }
+            Shape::Square | Shape::Octagon if second != Nm::ZERO && second != first => {
+                return unclear("it is as wide as high, but has two sizes");
             }
             Shape::Square => Template::Rectangle { width: first, height: first, hole },
             Shape::Rectangle | Shape::Oval if second == Nm::ZERO => {
