@@ -63,14 +63,13 @@ impl Board {
         }
     }
 
-    /// Leaves aside all but the copper of `side`, where it is given, and the outline.
-    pub fn leave_copper(&mut self, side: Option<Side>) {
+    /// Leaves aside all but the copper of `side` and the outline.
+    pub fn leave_copper(&mut self, side: Side) {
         self.whole = self.bounds();
         self.holes.clear();
         match side {
-            Some(Side::Front) => self.back = None,
-            Some(Side::Back) => self.front = None,
-            None => {}
+            Side::Front => self.back = None,
+            Side::Back => self.front = None,
         }
     }
 

@@ -1,5 +1,6 @@
 //! The options that name input files and their roles, shared by all commands that read a board.
 
+use std::ops::RangeInclusive;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -64,7 +65,13 @@ pub(super) struct Input {
     pub(super) picture_dpi: Option<f64>,
 
     /// Width of the whole picture, instead of --picture-dpi
-    #[arg(long, value_name = "LENGTH", conflicts_with = "picture_dpi", help_heading = "Pictures")]
+    #[arg(
+        long,
+        value_name = "LENGTH",
+        value_parser = width,
+        conflicts_with = "picture_dpi",
+        help_heading = "Pictures"
+    )]
     pub(super) picture_width: Option<Length>,
 
     #[command(flatten)]
@@ -133,10 +140,16 @@ pub(super) fn dpi(text: &str) -> Result<f64, String> {
 }
 
 fn pitch(text: &str) -> Result<Length, String> {
+    length_in(text, Nm::from_um(100)..=Nm::from_mm(100), "expected from 0.1mm to 100mm, such as 2.54mm")
+}
+
+fn width(text: &str) -> Result<Length, String> {
+    length_in(text, Nm::from_mm(1)..=Nm::from_mm(1000), "expected from 1mm to 1000mm, such as 80mm")
+}
+
+fn length_in(text: &str, range: RangeInclusive<Nm>, expected: &str) -> Result<Length, String> {
     let length: Length = text.parse().map_err(|error: ParseLengthError| error.to_string())?;
-    let range = Nm::from_um(100)..=Nm::from_mm(100);
-    let is_meant = range.contains(&length.nm());
-    is_meant.then_some(length).ok_or_else(|| "expected from 0.1mm to 100mm, such as 2.54mm".to_owned())
+    range.contains(&length.nm()).then_some(length).ok_or_else(|| expected.to_owned())
 }
 
 fn area(text: &str) -> Result<f64, String> {

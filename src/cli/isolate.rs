@@ -49,23 +49,25 @@ impl Isolate {
         let mut stages = Stages::default();
         let mut loaded = stages.run("reading", || self.input.load(&settings), |_| [])?;
         let settings = self.config.settings_for(&self.input, &loaded.board)?;
-        loaded.board.leave_copper(self.side.map(Side::from));
-        if loaded.board.front.is_some() && loaded.board.back.is_some() {
-            let hint = "give the file of one layer, set --side, or use `voromill mill`";
-            return Err(Failure::new("there is copper on both sides, but a program is for one", hint));
-        }
-        if loaded.board.front.is_none() && loaded.board.back.is_none() {
-            return Err(job::Error::NoCopper("in these files".to_owned()).into());
-        }
+        let sides = [Side::Front, Side::Back].into_iter().filter(|side| loaded.board.copper(*side).is_some());
+        let is_asked = |side: &Side| self.side.is_none_or(|asked| Side::from(asked) == *side);
+        let side = match sides.filter(is_asked).collect::<Vec<_>>()[..] {
+            [side] => side,
+            [] => return Err(job::Error::NoCopper("in these files".to_owned()).into()),
+            _ => {
+                let hint = "give the file of one layer, set --side, or use `voromill mill`";
+                return Err(Failure::new("there is copper on both sides, but a program is for one", hint));
+            }
+        };
         if self.paper {
             self.config.judge_paper()?;
             self.input.tell(&loaded.warnings, shared)?;
-            let side = if loaded.board.front.is_some() { Side::Front } else { Side::Back };
+            loaded.board.leave_copper(side);
             let text = job::paper_program(&loaded.board, side, &settings)?.unwrap_or_default();
             drop(progress);
             return self.write(&text);
         }
-        let mut job = job::mill(loaded, &settings)?;
+        let mut job = job::mill_side(loaded, side, &settings)?;
         // No other is written, so no other is told of.
         job.programs.retain(|program| matches!(program.part, Part::Front | Part::Back));
         let mut document = job.describe(&settings);

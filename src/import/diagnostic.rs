@@ -18,9 +18,21 @@ diagnostics! {
 
     PICTURE_SPECKS: Warning =
         "picture-specks",
-        "Specks of single pixels",
+        "Specks or lines of single pixels",
         "copper and gaps of more than a few pixels",
-        "remove specks with {despeckle} 0.05";
+        "remove specks with {despeckle} 0.05; lines want more pixels per inch";
+
+    PICTURE_PAGES: Warning =
+        "picture-pages",
+        "A picture file with several pages",
+        "a file with one picture",
+        "save each side of the board in a file of its own, and give them with {front} and {back}";
+
+    PICTURE_DOTS_DIFFER: Warning =
+        "picture-dots-differ",
+        "Drill dots that one of two pictures shows alone",
+        "the same drill dots on the front and on the back",
+        "look at this place on both pictures: is there a hole in the board?";
 
     PICTURE_SKEWED: Warning =
         "picture-skewed",

@@ -9,7 +9,8 @@ use super::error::Error;
 use super::naming;
 use super::picture::{Picture, Registration, Traced, is_picture, register};
 use super::selection::Selection;
-use crate::board::{Attributes, Board, Copper, Side, Source, Warning, Words};
+use crate::board::diagnostic::count;
+use crate::board::{Attributes, Board, Copper, Hole, Side, Source, Warning, Words};
 
 /// The board of pictures among what was named; none where there is no picture.
 pub(super) fn load(paths: &[PathBuf], selection: &Selection) -> Result<Option<Loaded>, Error> {
@@ -49,32 +50,35 @@ pub(super) fn load(paths: &[PathBuf], selection: &Selection) -> Result<Option<Lo
         Traced::read(&shown, &read_file(path, &shown)?, &selection.picture).map(Some)
     };
     let (front_picture, mut back_picture) = (traced(front)?, traced(back)?);
-    if let (Some(seen), Some(path)) = (&front_picture, back) {
-        let moved = |unmoved| registered(seen, unmoved, path, &mut loaded.warnings);
-        back_picture = back_picture.map(moved).transpose()?;
+    let mut is_laid = false;
+    if let (Some(seen), Some(path)) = (&front_picture, back)
+        && let Some(unmoved) = back_picture.take()
+    {
+        let (moved, is_known) = registered(seen, unmoved, path, &mut loaded.warnings)?;
+        (back_picture, is_laid) = (Some(moved), is_known);
     }
     for (side, path, picture) in [(Side::Front, front, front_picture), (Side::Back, back, back_picture)] {
         if let (Some(path), Some(picture)) = (path, picture) {
-            add(&mut loaded, side, path, picture.picture()?, selection);
+            add(&mut loaded, (side, path), picture.picture()?, is_laid, selection);
         }
     }
     Ok(Some(loaded))
 }
 
 /// The picture of the back, moved onto that of the front by the drill dots of both; as it is where
-/// they do not tell, with a warning.
+/// they do not tell, with a warning. And whether they do.
 fn registered(
     front: &Traced,
     back: Traced,
     path: &Path,
     warnings: &mut Vec<Warning>,
-) -> Result<Traced, Error> {
+) -> Result<(Traced, bool), Error> {
     let (front_dots, back_dots) = (front.dots(), back.dots());
     let pixel = front.pixel().max(back.pixel());
     let counts = format!("{} drill dots on the front and {} on the back", front_dots.len(), back_dots.len());
     let unknown = |why: String| diagnostic::PICTURES_NOT_REGISTERED.warning(why);
     let warning = match register(&front_dots, &back_dots, pixel) {
-        Registration::Aligned => return Ok(back),
+        Registration::Aligned => return Ok((back, true)),
         Registration::Moved(fit) => {
             let (x, y) = fit.motion.place((0.0, 0.0));
             let message = format!(
@@ -88,7 +92,7 @@ fn registered(
                 fit.worst / 1e3,
             );
             warnings.push(diagnostic::PICTURES_REGISTERED.warning(message).on(Side::Back));
-            return Ok(back.moved(&fit.motion));
+            return Ok((back.moved(&fit.motion), true));
         }
         Registration::Mirrored(count) => {
             let what = format!(
@@ -106,11 +110,23 @@ fn registered(
         }
     };
     warnings.push(warning.on(Side::Back));
-    Ok(back)
+    Ok((back, false))
 }
 
-/// Adds the picture of a side. The holes are those of the first one added.
-fn add(loaded: &mut Loaded, side: Side, path: &Path, picture: Picture, selection: &Selection) {
+/// Whether two drill dots are of the same hole.
+fn meets(hole: &Hole, dot: &Hole) -> bool {
+    hole.path.start.distance(dot.path.start) < hole.diameter.max(dot.diameter).to_f64() / 2.0
+}
+
+/// Adds the picture of a side. The holes are those of the first one added, and those that the
+/// other shows besides where it is known to be `laid` on it.
+fn add(
+    loaded: &mut Loaded,
+    (side, path): (Side, &Path),
+    picture: Picture,
+    is_laid: bool,
+    selection: &Selection,
+) {
     let copper = Copper { side, features: picture.features, attributes: vec![Attributes::default()] };
     match side {
         Side::Front => loaded.board.front = Some(copper),
@@ -118,6 +134,19 @@ fn add(loaded: &mut Loaded, side: Side, path: &Path, picture: Picture, selection
     }
     if loaded.board.holes.is_empty() && !selection.no_drill {
         loaded.board.holes = picture.holes;
+    } else if is_laid && !selection.no_drill {
+        let holes = &mut loaded.board.holes;
+        let alone: Vec<Hole> =
+            picture.holes.into_iter().filter(|dot| !holes.iter().any(|hole| meets(hole, dot))).collect();
+        if let Some(first) = alone.first() {
+            let message = format!(
+                "{} of the back that the front does not show: drilled, too",
+                count(alone.len(), "drill dot")
+            );
+            let at = first.path.start;
+            loaded.warnings.push(diagnostic::PICTURE_DOTS_DIFFER.warning(message).at(at).on(side));
+        }
+        holes.extend(alone);
     }
     let role = format!("{side}-copper");
     loaded.sources.push(Source { file: name_of(path), role, ..picture.source });

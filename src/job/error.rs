@@ -106,7 +106,7 @@ impl Error {
             Self::Voronoi { reason: voronoi::Error::Torn { .. }, .. } => {
                 "report it with the board; until it is mended another {strategy} may do"
             }
-            Self::Voronoi { .. } | Self::Grid(_) => "choose a larger {pixel}, or a smaller {window}",
+            Self::Grid(_) => "choose a larger {pixel}, or a smaller {window}",
         })
     }
 }

@@ -90,7 +90,7 @@ pub use overlap::{Overlap, ParseOverlapError};
 pub use own_lines::{OwnLines, ParseOwnLinesError};
 pub use paper::{paper, paper_picture, paper_program};
 pub use part::Part;
-pub use pipeline::{Job, mill};
+pub use pipeline::{Job, mill, mill_side};
 pub use plan::{Chosen, Tried};
 pub use pocketing::{Pocket, Pocketing, pocket};
 pub use probing::{ParseProbeGridError, ProbeGrid, Probing, probe};

@@ -52,6 +52,19 @@ pub struct Job {
 /// [`Error`] if there is neither copper nor an outline nor a hole, a file was cut off, or a side
 /// cannot be isolated.
 pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
+    make(loaded, None, settings)
+}
+
+/// Isolates one side of a board alone, where its zero is that of all of it.
+///
+/// # Errors
+///
+/// As [`mill`].
+pub fn mill_side(loaded: Loaded, side: Side, settings: &Settings) -> Result<Job, Error> {
+    make(loaded, Some(side), settings)
+}
+
+fn make(loaded: Loaded, side: Option<Side>, settings: &Settings) -> Result<Job, Error> {
     let Loaded { mut board, sources, mut warnings, ignored } = loaded;
     refuse_cut_off(&warnings)?;
     if !settings.asked.ignore.is_empty() {
@@ -62,6 +75,9 @@ pub fn mill(loaded: Loaded, settings: &Settings) -> Result<Job, Error> {
     {
         let warning = planning::RIVET_WITHOUT_HOLE.warning("no hole of the board is plated");
         warnings.push(warning.so(Words::of("{rivet} has no effect")));
+    }
+    if let Some(side) = side {
+        board.leave_copper(side);
     }
     if settings.alignment.is_some() && !is_flipped(&board, settings) {
         let warning = planning::PINS_WITHOUT_FLIP.warning("nothing is milled with the back up");

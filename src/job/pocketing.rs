@@ -7,7 +7,7 @@ use crate::board::Warning;
 use crate::board::diagnostic::count;
 use crate::board::diagnostic::planning;
 use crate::board::polarity::{difference, intersection, offset, union};
-use crate::geometry::{Nm, Point, Polygon, Rect};
+use crate::geometry::{Edges, Nm, Point, Polygon, Rect, RectIndex};
 use crate::report::stages::Stages;
 use crate::toolpath::strategy::{self, Clearings, Engaging, Entries, Groove, Levels, Planned, Sequence};
 use crate::toolpath::{Angle, Direction, Heights, Placement, Tool, ToolKind};
@@ -179,9 +179,12 @@ impl Pocket {
         if let Some(clearings) = &clearings {
             let grooves = clearings.grooves.iter();
             self.warnings.extend(grooves.map(|groove| groove_warning(groove, &self.placement)));
-            self.warnings.extend(clearings.looped.iter().map(|&at| {
-                let message =
-                    format!("an area is milled in loops, in {} layers, and not in arcs", clearings.layers());
+            self.warnings.extend(clearings.looped.iter().map(|&(at, is_large)| {
+                let why = if is_large { "it would take too many" } else { "its medial axis is faulty" };
+                let message = format!(
+                    "an area is milled in loops, in {} layers, and not in arcs: {why}",
+                    clearings.layers()
+                );
                 planning::MILLED_IN_LOOPS.warning(message).at(self.placement.undo(at))
             }));
             let in_loops = (0..nest.roots.len()).filter(|&root| !clearings.has(root)).count();
@@ -260,9 +263,10 @@ fn rest(areas: &[Polygon], coarser: Nm, finer: Nm) -> Vec<Polygon> {
 fn round_what_is_left(areas: &[Polygon], left: &[Polygon], diameter: Nm) -> Vec<Polygon> {
     let near = left.iter().flat_map(|piece| offset(piece, diameter, FLATTEN));
     let near = union(&near.collect::<Vec<_>>());
-    let meets = |area: &Polygon, near: &Polygon| area.bounds().touches(near.bounds());
+    let index = RectIndex::new(near.iter().map(Polygon::bounds));
     let within = |area: &Polygon| -> Vec<Polygon> {
-        near.iter().filter(|near| meets(area, near)).flat_map(|near| intersection(near, area)).collect()
+        let meets = index.touching(area.bounds()).into_iter();
+        meets.flat_map(|number| intersection(&near[number], area)).collect()
     };
     areas.par_iter().flat_map_iter(within).collect()
 }
@@ -270,11 +274,12 @@ fn round_what_is_left(areas: &[Polygon], left: &[Polygon], diameter: Nm) -> Vec<
 /// Of each loop whether a tool of this radius meets nothing of what is left along it.
 fn done(nest: &Nest, left: &[Polygon], radius: Nm) -> Vec<bool> {
     let near = left.iter().flat_map(|piece| offset(piece, radius + THIN * 5, FLATTEN));
-    let near: Vec<(Rect, Polygon)> = near.map(|near| (near.bounds(), near)).collect();
+    let near: Vec<Edges> = near.map(|near| Edges::new(&near)).collect();
+    let index = RectIndex::new(near.iter().map(Edges::bounds));
     let apart = radius.to_f64() / 8.0;
     let meets = |(x, y): (f64, f64)| {
         let at = Point::from_f64(x, y);
-        near.iter().any(|(bounds, near)| bounds.contains(at) && near.contains(at))
+        index.touching(Rect::new(at, at)).into_iter().any(|number| near[number].contains(at))
     };
     let is_done = |ring: &[(f64, f64)]| {
         let next = ring.iter().cycle().skip(1);

@@ -11,6 +11,15 @@ pub struct Contour {
     pub points: Vec<(f64, f64)>,
 }
 
+impl Contour {
+    /// How long it is, in pixels.
+    #[must_use]
+    pub fn length(&self) -> f64 {
+        let ends = self.points.iter().zip(self.points.iter().cycle().skip(1));
+        ends.map(|(a, b)| libm::hypot(b.0 - a.0, b.1 - a.1)).sum()
+    }
+}
+
 /// Where a contour passes: between the sample at a column and row, which may be −1, and that to its
 /// right or below it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

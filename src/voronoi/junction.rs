@@ -9,7 +9,7 @@
 
 use rustc_hash::FxHashMap;
 
-use crate::geometry::{Nm, Point, Segment};
+use crate::geometry::{Nm, Point, Rect, RectIndex, Segment};
 
 use super::part::{Cut, foot, part};
 use super::plane::Spot;
@@ -19,6 +19,8 @@ use super::{Boundaries, Boundary, NodeId};
 pub(super) struct Junctions {
     nodes: Vec<Point>,
     loops: Vec<Boundary>,
+    /// Where each loop lies, and what is near it.
+    near: RectIndex,
     /// Where each loop is parted.
     cuts: Vec<Vec<Cut>>,
     /// The nodes that stand on loops.
@@ -33,7 +35,10 @@ impl Junctions {
         let Boundaries { nodes, edges, .. } = loops;
         let ends = edges.iter().filter_map(|edge| edge.ends).flat_map(|(a, b)| [a, b]);
         let known = ends.map(|node| (nodes[node.0 as usize], node)).collect();
-        Self { nodes, cuts: vec![Vec::new(); edges.len()], loops: edges, known, others: Vec::new(), leash }
+        let reach = Nm::from_f64(leash);
+        let near = RectIndex::new(edges.iter().map(|edge| edge.path.bounds().inflate(reach)));
+        let cuts = vec![Vec::new(); edges.len()];
+        Self { nodes, cuts, loops: edges, near, known, others: Vec::new(), leash }
     }
 
     /// Adds those edges of `found` that `keep` accepts. Where they meet one that is not kept they
@@ -84,13 +89,10 @@ impl Junctions {
     /// place.
     fn nearest(&self, p: Spot) -> Option<(usize, usize, Spot)> {
         let mut best = (self.leash, None);
-        let reach = Nm::from_f64(self.leash);
-        for (index, edge) in self.loops.iter().enumerate() {
-            if edge.path.bounds().inflate(reach).contains(p.rounded()) {
-                let (segment, foot, distance) = foot(&edge.path, p);
-                if distance < best.0 {
-                    best = (distance, Some((index, segment, foot)));
-                }
+        for index in self.near.touching(Rect::new(p.rounded(), p.rounded())) {
+            let (segment, foot, distance) = foot(&self.loops[index].path, p);
+            if distance < best.0 {
+                best = (distance, Some((index, segment, foot)));
             }
         }
         best.1

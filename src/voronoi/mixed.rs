@@ -19,8 +19,8 @@
 
 use std::collections::BTreeMap;
 
-use crate::board::{Copper, Outline, polarity};
-use crate::geometry::{Nm, Path, Point, Polygon, Rect};
+use crate::board::{Copper, Outline, Shape, polarity};
+use crate::geometry::{Edges, Nm, Path, Point, Polygon, RectIndex};
 use crate::topology::{NetId, Nets};
 
 use super::edge::Border;
@@ -125,21 +125,34 @@ fn fields(
     settings: &Settings,
 ) -> Result<Vec<Diagram>, Error> {
     let pieces: Vec<Polygon> = pieces(all, &gone_round(loops, looped));
-    let bounds: Vec<Rect> = pieces.iter().map(Polygon::bounds).collect();
-    let home = |(net, looped): (&crate::topology::Net, &bool)| {
-        let lies_in = |piece: usize| {
-            let shapes = net.features.iter().map(|&feature| &copper.features[feature as usize].shape);
-            let mut near = shapes.filter(|shape| shape.bounds().touches(bounds[piece]));
-            near.any(|shape| shape.lies_in(&pieces[piece]))
-        };
-        (0..pieces.len()).find(|&piece| !looped && lies_in(piece))
+    let edges: Vec<Edges> = pieces.iter().map(Edges::new).collect();
+    let near = RectIndex::new(edges.iter().map(Edges::bounds));
+    let lies_in = |shape: &Shape, piece: usize| {
+        if edges[piece].any(shape.bounds(), |_| true) {
+            shape.lies_in(&pieces[piece])
+        } else {
+            // All of it lies on one side.
+            edges[piece].contains(shape.bounds().min())
+        }
     };
-    let homes: Vec<Option<usize>> = nets.nets().iter().zip(looped).map(home).collect();
-    let inhabited = pieces.into_iter().enumerate().filter(|(piece, _)| homes.contains(&Some(*piece)));
+    // A net that goes on beyond a loop lies in several.
+    let homes = |(net, looped): (&crate::topology::Net, &bool)| {
+        let mut homes: Vec<usize> = Vec::new();
+        for &feature in net.features.iter().filter(|_| !looped) {
+            let shape = &copper.features[feature as usize].shape;
+            let others = near.touching(shape.bounds()).into_iter().filter(|&piece| lies_in(shape, piece));
+            homes.extend(others.filter(|piece| !homes.contains(piece)).collect::<Vec<_>>());
+        }
+        homes
+    };
+    let homes: Vec<Vec<usize>> = nets.nets().iter().zip(looped).map(homes).collect();
+    let mut is_inhabited = vec![false; pieces.len()];
+    homes.iter().flatten().for_each(|&piece| is_inhabited[piece] = true);
+    let inhabited = pieces.into_iter().enumerate().filter(|(piece, _)| is_inhabited[*piece]);
     let field = |(piece, polygon): (usize, Polygon)| {
         let Border { window, ref frame, clearance, .. } = all.border;
         let border = Border::round(vec![polygon], window, frame.clone(), clearance);
-        let kept = homes.iter().map(|home| *home == Some(piece)).collect();
+        let kept = homes.iter().map(|homes| homes.contains(&piece)).collect();
         // Passes are those of the diagram in which every net has a loop.
         let settings = Settings { passes: None, ..settings.clone() };
         Diagram::within(border, copper, nets, &settings, kept)

@@ -48,7 +48,6 @@ use std::sync::{Arc, Mutex};
 use crate::board::diagnostic::planning;
 use crate::board::{Copper, Outline, Side, Warning};
 use crate::geometry::{Nm, Path, Point, Rect};
-use crate::grid::{Grid, GridError};
 use crate::topology::{NetId, Nets};
 
 pub use fit::fit_points;
@@ -241,9 +240,6 @@ impl Default for Settings {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// The picture cannot be drawn.
-    #[error("cannot draw the board: {0}")]
-    Grid(#[from] GridError),
     /// There is nothing to isolate on the board.
     #[error(
         "there is no copper, or none within the board's outline: is the outline from another board, or in other units?"
@@ -265,7 +261,6 @@ pub enum Error {
 /// The Voronoi diagram of a layer.
 pub struct Diagram {
     border: Border,
-    grid: Grid,
     settings: Settings,
     side: Side,
     /// The box round all copper.
@@ -325,7 +320,6 @@ impl Diagram {
         kept: Vec<bool>,
     ) -> Result<Self, Error> {
         let keep = |feature: usize| kept[nets.of(feature).index()];
-        let grid = Grid::covering(border.window, settings.pitch)?;
         let bounds = copper.bounds().unwrap_or(border.window);
         let owned = match settings.sites {
             SiteKind::Copper => Owned::copper(copper, nets, keep),
@@ -348,7 +342,6 @@ impl Diagram {
         }
         Ok(Self {
             border,
-            grid,
             settings: settings.clone(),
             side: copper.side,
             copper: bounds,
@@ -379,7 +372,7 @@ impl Diagram {
     pub fn regions(&self) -> Regions {
         let parts = self.mixed.as_ref().map(|mixed| Box::new(mixed.parts()));
         let (border, settings, kept) = (self.border.clone(), self.settings.clone(), self.kept.clone());
-        Regions { border, settings, grid: self.grid, kept, parts }
+        Regions { border, settings, kept, parts }
     }
 
     /// The boundaries between all regions.

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::board::Copper;
-use crate::grid::Grid;
+use crate::grid::{Grid, GridError};
 use crate::raster::{self, Scene, TileContent};
 use crate::topology::Nets;
 
@@ -14,7 +14,6 @@ use super::{Owner, Settings, cones};
 pub struct Regions {
     pub(super) border: Border,
     pub(super) settings: Settings,
-    pub(super) grid: Grid,
     /// Whether each net has anything on the board.
     pub(super) kept: Vec<bool>,
     /// What they are made of, where some nets have loops and others not.
@@ -29,9 +28,12 @@ pub(super) struct Parts {
 
 impl Regions {
     /// The grid of a picture of the board.
-    #[must_use]
-    pub const fn grid(&self) -> &Grid {
-        &self.grid
+    ///
+    /// # Errors
+    ///
+    /// [`GridError`] for pixels that are too fine for it.
+    pub fn grid(&self) -> Result<Grid, GridError> {
+        Grid::covering(self.border.window, self.settings.pitch)
     }
 
     /// Shows `paint` who owns the pixels of `grid` (row, columns, owner), tile by tile: nothing

@@ -18,7 +18,7 @@ fn difference(layer: &Layer, settings: &Settings) -> Option<String> {
     let nets = topology::recover(&layer.copper, Method::Contact);
     let diagram = Diagram::new(&layer.copper, &nets, layer.outline.as_ref(), settings).expect("a diagram");
     let regions = diagram.regions();
-    let grid = *regions.grid();
+    let grid = regions.grid().expect("a picture");
     let width = grid.width() as usize;
     let mut picture = vec![Owner::Outside; width * grid.height() as usize];
     regions.paint(&layer.copper, &nets, &grid, |row, columns, owner| {

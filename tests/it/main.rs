@@ -28,6 +28,7 @@ mod gerber_constructs;
 mod gerber_damage;
 mod gl_parity;
 mod house;
+mod isolated;
 mod job;
 mod json;
 mod kicad;

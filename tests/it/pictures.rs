@@ -142,6 +142,66 @@ fn colours_greys_and_clear_pixels_tell_copper_alike() {
     assert_is_the_board(&inverted, &Options { colour: Colour::Light, invert: true, ..OPTIONS }, "not light");
 }
 
+/// As a picture program leaves it at the corners of a scan that it turned.
+#[test]
+fn what_is_clear_beside_two_colours_is_bare_board() {
+    let (width, height, shares) = drawn();
+    for (ink, ground) in [(0, 255), (255, 0), (180, 250)] {
+        let colour = |x: u32, y: u32| {
+            let is_clear = x + y < 14 || (width - x) + y < 14;
+            let value = if shares[(y * width + x) as usize] > 7 { ink } else { ground };
+            Rgba(if is_clear { [0; 4] } else { [value, value, value, 255] })
+        };
+        let bytes = encoded(&RgbaImage::from_fn(width, height, colour).into(), ImageFormat::Png);
+        let what = format!("{ink} on {ground}");
+        assert_is_the_board(&bytes, &OPTIONS, &what);
+        let told = if ink < ground { Colour::Dark } else { Colour::Light };
+        assert_is_the_board(&bytes, &Options { colour: told, ..OPTIONS }, &what);
+    }
+}
+
+#[test]
+fn squares_that_touch_at_corners_stay_apart() {
+    let is_ink = |x: u32, y: u32| {
+        (0..4).any(|n| (5 + 10 * n..15 + 10 * n).contains(&x.max(y)) && x.min(y) >= 5 + 10 * n)
+    };
+    let ink = |x, y| Luma([if is_ink(x, y) { 0 } else { 255 }]);
+    let bytes = encoded(&GrayImage::from_fn(90, 90, ink).into(), ImageFormat::Png);
+    assert_eq!(islands(&read("corners", &bytes, &OPTIONS).expect("squares")), 4, "as they are traced");
+}
+
+#[test]
+fn lines_of_single_pixels_and_further_pages_are_told() {
+    let codes = |bytes: &[u8]| -> Vec<&str> {
+        read("board", bytes, &OPTIONS)
+            .expect("a board")
+            .warnings
+            .iter()
+            .map(|warning| warning.code())
+            .collect()
+    };
+    let line = |x: u32, y: u32| (!(10..=80).contains(&x) || y == 10 + x / 7) && (5..30).contains(&y);
+    let ink = |x, y| Luma([if line(x, y) { 0 } else { 255 }]);
+    let thin = encoded(&GrayImage::from_fn(90, 90, ink).into(), ImageFormat::Png);
+    assert!(codes(&thin).contains(&"picture-specks"), "its pieces touch at corners alone");
+    let mut tiff = encoded(&grey(), ImageFormat::Tiff);
+    assert!(!codes(&tiff).contains(&"picture-pages"), "one page");
+    // Another directory like the first, behind it.
+    let at = u32::from_le_bytes(tiff[4..8].try_into().expect("four bytes")) as usize;
+    let entries = 2 + 12 * usize::from(u16::from_le_bytes([tiff[at], tiff[at + 1]]));
+    let (copy, end) = (tiff[at..at + entries].to_vec(), u32::try_from(tiff.len()).expect("small"));
+    tiff[at + entries..at + entries + 4].copy_from_slice(&end.to_le_bytes());
+    tiff.extend(copy.into_iter().chain([0; 4]));
+    assert!(codes(&tiff).contains(&"picture-pages"), "two of them");
+}
+
+#[test]
+fn what_stands_behind_the_end_of_a_jpeg_is_none_of_it() {
+    let mut bytes = encoded(&grey(), ImageFormat::Jpeg);
+    bytes.extend(b"a film \xff\xda of a telephone \xff\x00");
+    assert_is_the_board(&bytes, &OPTIONS, "with a film behind it");
+}
+
 #[test]
 fn a_guess_of_the_colour_is_said_and_a_told_one_is_not() {
     let bytes = encoded(&grey(), ImageFormat::Png);
@@ -171,6 +231,10 @@ fn a_picture_is_as_large_as_it_is_told_or_says() {
     let width = Nm::from_f64(284.0 * PIXEL * 1e6 * 2.0);
     let doubled = right(&Options { dpi_unless_said: None, width: Some(width), ..OPTIONS });
     assert!((doubled / 2.0 - at_600).abs() < 1e-5, "by its width: {doubled}");
+    let part =
+        Options { dpi_unless_said: None, width: Some(width), crop: Some([142, 0, 142, 130]), ..OPTIONS };
+    let dot = read("board", &bytes, &part).expect("a quarter").holes[0].diameter.to_mm();
+    assert!((dot - 1.2).abs() < PIXEL, "the width is that of the whole: {dot}");
     let open = read("board", &bytes, &Options { dpi_unless_said: None, ..OPTIONS }).expect_err("no DPI");
     for word in ["has no resolution (DPI)", "--dpi 600", "--picture-width"] {
         assert!(open.to_string().contains(word), "{open}");

@@ -365,6 +365,10 @@ fn dots_that_some_scans_lack_do_no_harm() {
     let message = &message.expect("it is moved").message;
     assert!(message.contains("21 meet"), "{message}");
     assert!((number_before(message, " degrees") + 0.8).abs() < 0.02, "{message}");
+    let alone = loaded.warnings.iter().find(|warning| warning.code() == "picture-dots-differ");
+    let alone = &alone.expect("the back has more").message;
+    assert!(alone.starts_with("5 drill dots of the back"), "{alone}");
+    assert_eq!(loaded.board.holes.len(), pins().len() + 2, "those of either side");
 }
 
 #[test]

@@ -143,9 +143,9 @@ diagnostics! {
 
     MILLED_IN_LOOPS: Warning =
         "milled-in-loops",
-        "the medial axis of a pocket is faulty, so that it cannot be cleared in arcs",
-        "it is milled in loops, in layers so shallow that the tool bears no more than elsewhere, which takes longer: this is a bug in voromill",
-        "report it with the file";
+        "an area of a pocket is not cleared in arcs: it would take more than 200000, or its medial axis is faulty",
+        "it is milled in loops, in layers so shallow that the tool bears no more than elsewhere, which takes longer",
+        "use a wider {tool} or a greater {engagement}; a faulty axis is a bug in voromill: report it with the file";
 
     MILLPROJECT_OPTION: Warning =
         "millproject-option",

@@ -7,10 +7,15 @@ use crate::board::Words;
 use std::io::Cursor;
 use std::path::Path;
 
-use image::{DynamicImage, GenericImageView as _, ImageDecoder as _, ImageFormat, ImageReader, Limits};
+use image::codecs::gif::GifDecoder;
+use image::codecs::webp::WebPDecoder;
+use image::{
+    AnimationDecoder as _, DynamicImage, GenericImageView as _, ImageDecoder as _, ImageFormat, ImageReader,
+    Limits,
+};
 
-use super::Options;
-use super::resolution::resolution;
+use super::resolution::{self, resolution};
+use super::{Colour, Options};
 use crate::import::error::Error;
 use crate::vectorize::Field;
 
@@ -38,6 +43,10 @@ pub(super) struct Decoded {
     /// Pixels to the inch, across and down, where the file says them.
     pub(super) dpi: Option<(f64, f64)>,
     pub(super) format: &'static str,
+    /// Columns of the whole picture, of which a part may be all that is read.
+    pub(super) whole: u32,
+    /// How many pages or frames the file has, of which the first is read.
+    pub(super) pages: usize,
 }
 
 /// Whether a file is to be read as a picture: by its first bytes, or by its name.
@@ -65,27 +74,45 @@ pub(super) fn decode(name: &str, bytes: &[u8], options: &Options) -> Result<Deco
         let what = "the JPEG is truncated: it has no end";
         return Err(Error::content(name, what, "copy or save the picture again"));
     }
-    let decoded = contained(|| upright(name, bytes, format, options.most_pixels.unwrap_or(MOST_PIXELS)));
-    let (mut picture, (width, height)) = decoded.unwrap_or_else(|words| Err(broken(name, words)))?;
+    let decoded = contained(|| {
+        let upright = upright(name, bytes, format, options.most_pixels.unwrap_or(MOST_PIXELS))?;
+        Ok((upright, pages(bytes, format)))
+    });
+    let ((mut picture, (width, height)), pages) = decoded.unwrap_or_else(|words| Err(broken(name, words)))?;
     let mut dpi = resolution(bytes, format);
     if picture.dimensions() != (width, height) {
         dpi = dpi.map(|(x, y)| (y, x));
     }
+    let whole = picture.width();
     if let Some([left, top, columns, rows]) = options.crop {
         picture = cropped(name, &picture, [left, top, columns, rows])?;
     }
-    let (samples, is_bright) = values(&picture);
+    let (samples, is_bright) = values(&picture, options);
     let width = picture.width() as usize;
     let empty = || Error::content(name, "the picture has no pixels", "check that it is whole");
     let field = Field::new(width, samples).ok_or_else(empty)?;
-    Ok(Decoded { field, is_bright, dpi, format: name_of(format).unwrap_or_default() })
+    Ok(Decoded { field, is_bright, dpi, format: name_of(format).unwrap_or_default(), whole, pages })
 }
 
-/// Whether a JPEG has a marker for its end (EOI) after the last one for a scan (SOS; ITU-T T.81,
-/// B.1.1.3): its decoder fills with grey what is missing. No other bytes of a scan look like one.
+/// Whether a JPEG has a marker for its end (EOI; ITU-T T.81, B.1.1.3): its decoder fills with grey
+/// what is missing. What is in a segment or behind the end is none of its markers: thumbnails, the
+/// film that telephones append.
 fn has_end(bytes: &[u8]) -> bool {
-    let last = |marker| bytes.windows(2).rposition(|pair| pair == [0xFF, marker]);
-    last(0xD9) > last(0xDA)
+    let mut at = 2;
+    loop {
+        // Data of a scan, or fill bytes: no marker is 0, and those to restart belong to the scan.
+        let is_marker = |pair: &[u8]| pair[0] == 0xFF && !matches!(pair[1], 0 | 0xD0..=0xD7 | 0xFF);
+        let Some(next) = bytes.get(at..).and_then(|rest| rest.windows(2).position(is_marker)) else {
+            return false;
+        };
+        let marker = bytes[at + next + 1];
+        at += next + 2;
+        if marker == 0xD9 {
+            return true;
+        }
+        let Some(length) = bytes.get(at..at + 2) else { return false };
+        at += usize::from(u16::from_be_bytes([length[0], length[1]]));
+    }
 }
 
 /// The picture as it is to be looked at, and how wide and high it lies in the file.
@@ -152,8 +179,21 @@ fn cropped(name: &str, picture: &DynamicImage, part: [u32; 4]) -> Result<Dynamic
     Ok(picture.crop_imm(left, top, columns, rows))
 }
 
+/// How many pictures a file has, as far as that is worth knowing: two are more than one.
+fn pages(bytes: &[u8], format: ImageFormat) -> usize {
+    match format {
+        ImageFormat::Tiff => resolution::pages(bytes),
+        ImageFormat::Gif => GifDecoder::new(Cursor::new(bytes))
+            .map_or(1, |gif| gif.into_frames().take(2).filter(Result::is_ok).count()),
+        ImageFormat::WebP => {
+            WebPDecoder::new(Cursor::new(bytes)).map_or(1, |webp| 1 + usize::from(webp.has_animation()))
+        }
+        _ => 1,
+    }
+}
+
 /// A value for each pixel, and whether higher ones are brighter.
-fn values(picture: &DynamicImage) -> (Vec<u16>, bool) {
+fn values(picture: &DynamicImage, options: &Options) -> (Vec<u16>, bool) {
     if let DynamicImage::ImageLuma8(grey) = picture {
         return (grey.as_raw().iter().map(|&value| u16::from(value) * 257).collect(), true);
     }
@@ -168,13 +208,45 @@ fn values(picture: &DynamicImage) -> (Vec<u16>, bool) {
     };
     let on = |ground: u16| colours.iter().map(move |&colour| over(colour, ground));
     let white = Axis::of(on(u16::MAX));
-    // Light ink on nothing shows on black alone.
     let is_clear = colours.iter().any(|colour| colour[3] < u16::MAX);
-    let black = is_clear.then(|| Axis::of(on(0))).filter(|black| black.variance > white.variance);
+    let black = is_clear.then(|| Axis::of(on(0))).filter(|black| match bare(&colours, options) {
+        Some(is_light) => !is_light,
+        // Light ink on nothing shows on black alone.
+        None => black.variance > white.variance,
+    });
     match black {
         Some(axis) => (on(0).map(|colour| axis.value(colour)).collect(), axis.is_bright()),
         None => (on(u16::MAX).map(|colour| white.value(colour)).collect(), white.is_bright()),
     }
+}
+
+/// Whether bare board is the lighter of two colours, where pixels that nothing shines through have
+/// two: then it is bare board where there is nothing, as at the corners of a scan that was turned.
+fn bare(colours: &[[u16; 4]], options: &Options) -> Option<bool> {
+    /// The variance from which on there are two, as a part of what black and white may have.
+    /// Chosen: a line in a hundredth of the pixels.
+    const TWO: f64 = 0.01;
+    let opaque = || {
+        let solid = colours.iter().filter(|colour| colour[3] == u16::MAX);
+        solid.map(|&[r, g, b, _]| [r, g, b].map(f64::from))
+    };
+    let axis = Axis::of(opaque());
+    let most = f64::from(u16::MAX);
+    if axis.variance < TWO * most * most {
+        return None;
+    }
+    let is_light = match options.colour {
+        Colour::Dark => true,
+        Colour::Light => false,
+        Colour::Rarer => {
+            let half = u16::MAX / 2;
+            let (count, high) = opaque().fold((0_usize, 0_usize), |(count, high), colour| {
+                (count + 1, high + usize::from(axis.value(colour) > half))
+            });
+            (2 * high > count) == axis.is_bright()
+        }
+    };
+    Some(is_light != options.invert)
 }
 
 /// A colour laid on a ground.

@@ -126,6 +126,10 @@ impl Traced {
         let told = if options.pitch.is_none() { Some(Scale::of(name, &decoded, options)?) } else { None };
         let level = two_colours(name, &decoded.field)?;
         let mut warnings = Vec::new();
+        if decoded.pages > 1 {
+            let message = "the file has several pages or frames: the first is read";
+            warnings.push(diagnostic::PICTURE_PAGES.warning(message));
+        }
         let inside = inside(&level, decoded.is_bright, options, &mut warnings);
         let contours = contours(name, &decoded.field, inside)?;
         let tolerance = tolerance(&decoded.field, &level);
@@ -375,7 +379,7 @@ fn tolerance(field: &Field, level: &Level) -> f64 {
 }
 
 /// The areas of contours made of few straight lines: finer ones where those would join or part
-/// pieces.
+/// pieces, or let them touch at a corner.
 fn straightened(contours: &[Contour], scale: &Scale, tolerance: f64) -> Vec<Polygon> {
     let expected = contours.iter().filter(|contour| scale.area(contour) > 0.0).count();
     let made = |tolerance: f64| {
@@ -390,8 +394,18 @@ fn straightened(contours: &[Contour], scale: &Scale, tolerance: f64) -> Vec<Poly
         polarity::clean(&contours.iter().map(ring).collect::<Vec<_>>())
     };
     let tries = [tolerance, tolerance / 2.0].into_iter().map(made);
-    let fitting = tries.into_iter().find(|polygons| polygons.len() == expected);
+    let fitting = tries.into_iter().find(|polygons| polygons.len() == expected && !have_corner(polygons));
     fitting.unwrap_or_else(|| made(0.0))
+}
+
+/// Whether two of some polygons have a corner at the same place.
+fn have_corner(polygons: &[Polygon]) -> bool {
+    let corners = |(number, polygon): (usize, &Polygon)| -> Vec<(Point, usize)> {
+        polygon.contours().iter().flatten().map(|&p| (p, number)).collect()
+    };
+    let mut all: Vec<(Point, usize)> = polygons.iter().enumerate().flat_map(corners).collect();
+    all.sort_unstable();
+    all.windows(2).any(|pair| pair[0].0 == pair[1].0 && pair[0].1 != pair[1].1)
 }
 
 /// What is known of the file; what is counted in it is for later.

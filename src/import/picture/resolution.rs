@@ -80,26 +80,59 @@ fn jpeg(bytes: &[u8]) -> Option<(f64, f64)> {
     exif
 }
 
+/// How many pages a TIFF has: directories that are not marked as a smaller copy of a page or as its
+/// mask (tag 254; TIFF 6.0, section 8).
+pub(super) fn pages(bytes: &[u8]) -> usize {
+    /// More are not counted, as they may go round. Chosen.
+    const MOST: usize = 100;
+    let tiff = Tiff::new(bytes);
+    let next = |directory: usize| {
+        let count = usize::from(tiff.short(directory)?);
+        Some(tiff.long(directory.checked_add(2 + count * 12)?)? as usize).filter(|&at| at > 0)
+    };
+    let directories = std::iter::successors(tiff.long(4).map(|at| at as usize), |&at| next(at)).take(MOST);
+    let kind = |directory: usize| tiff.entry(directory, 254).and_then(|at| tiff.long(at.checked_add(8)?));
+    directories.filter(|&directory| kind(directory).is_none_or(|kind| kind & 0b101 == 0)).count()
+}
+
+/// A file in the byte order that it says.
+struct Tiff<'a> {
+    bytes: &'a [u8],
+    is_little: bool,
+}
+
+impl<'a> Tiff<'a> {
+    fn new(bytes: &'a [u8]) -> Self {
+        Self { bytes, is_little: bytes.starts_with(b"II") }
+    }
+
+    fn long(&self, at: usize) -> Option<u32> {
+        if self.is_little { little(self.bytes, at) } else { big(self.bytes, at) }
+    }
+
+    fn short(&self, at: usize) -> Option<u16> {
+        let pair = self.bytes.get(at..at.checked_add(2)?)?.try_into().ok()?;
+        Some(if self.is_little { u16::from_le_bytes(pair) } else { u16::from_be_bytes(pair) })
+    }
+
+    /// Where a directory has a tag.
+    fn entry(&self, directory: usize, tag: u16) -> Option<usize> {
+        let count = usize::from(self.short(directory)?);
+        let mut places = (0..count).filter_map(|number| directory.checked_add(2 + number * 12));
+        places.find(|&at| self.short(at) == Some(tag))
+    }
+}
+
 /// The tags 282, 283 and 296 of the first directory (TIFF 6.0, section 8).
 fn tiff(bytes: &[u8]) -> Option<(f64, f64)> {
-    let is_little = bytes.starts_with(b"II");
-    let long = |at: usize| if is_little { little(bytes, at) } else { big(bytes, at) };
-    let short = |at: usize| {
-        let pair = bytes.get(at..at.checked_add(2)?)?.try_into().ok()?;
-        Some(if is_little { u16::from_le_bytes(pair) } else { u16::from_be_bytes(pair) })
-    };
-    let directory = long(4)? as usize;
-    let count = usize::from(short(directory)?);
-    let entry = |tag: u16| {
-        let places = (0..count).filter_map(|number| directory.checked_add(2 + number * 12));
-        places.into_iter().find(|&at| short(at) == Some(tag))
-    };
+    let tiff = Tiff::new(bytes);
+    let directory = tiff.long(4)? as usize;
     let ratio = |tag: u16| {
-        let at = long(entry(tag)?.checked_add(8)?)? as usize;
-        let (over, under) = (f64::from(long(at)?), f64::from(long(at.checked_add(4)?)?));
+        let at = tiff.long(tiff.entry(directory, tag)?.checked_add(8)?)? as usize;
+        let (over, under) = (f64::from(tiff.long(at)?), f64::from(tiff.long(at.checked_add(4)?)?));
         (under > 0.0).then(|| over / under)
     };
-    let unit = match entry(296).and_then(|at| short(at.checked_add(8)?)) {
+    let unit = match tiff.entry(directory, 296).and_then(|at| tiff.short(at.checked_add(8)?)) {
         None | Some(2) => 1.0,
         Some(3) => 2.54,
         Some(_) => return None,

@@ -30,11 +30,10 @@ pub(super) struct Scale {
 impl Scale {
     /// By what a person or the file says.
     pub(super) fn of(name: &str, decoded: &Decoded, options: &Options) -> Result<Self, Error> {
-        let (columns, _) = decoded.field.size();
         let dpi = match (options.dpi, options.width) {
             (Some(dpi), _) => Some((dpi, dpi)),
             (None, Some(width)) => {
-                let dpi = columns / width.to_f64().max(1.0) * INCH;
+                let dpi = f64::from(decoded.whole) / width.to_f64().max(1.0) * INCH;
                 Some((dpi, dpi))
             }
             (None, None) => decoded.dpi.or(options.dpi_unless_said.map(|dpi| (dpi, dpi))),
@@ -113,14 +112,22 @@ impl Scale {
     ) -> Vec<Contour> {
         /// What is so small is no copper that was drawn. Chosen: four pixels.
         const SPECK: f64 = 4.0;
+        /// What is no wider, in pixels, is a line whose pieces may touch at corners alone. Chosen:
+        /// pixels one after another have less.
+        const THIN: f64 = 1.0;
         let kept: Vec<Contour> =
             contours.into_iter().filter(|contour| self.area(contour).abs() >= least).collect();
         let pixel = self.pixel.0 * self.pixel.1 / 1e12;
-        let specks: Vec<&Contour> =
-            kept.iter().filter(|contour| self.area(contour).abs() < SPECK * pixel).collect();
+        let is_speck = |contour: &&Contour| {
+            let area = self.area(contour).abs() / pixel;
+            area < SPECK || 2.0 * area < THIN * contour.length()
+        };
+        let specks: Vec<&Contour> = kept.iter().filter(is_speck).collect();
         if let Some(first) = specks.first() {
-            let message =
-                format!("{} specks of less than four pixels are read as copper or bare board", specks.len());
+            let message = format!(
+                "{} specks of less than four pixels, or lines no wider than one, are read as copper or bare board",
+                specks.len()
+            );
             let at = first.points.first().map(|&p| self.point(p)).unwrap_or_default();
             warnings.push(diagnostic::PICTURE_SPECKS.warning(message).at(at));
         }

@@ -59,6 +59,23 @@ impl Diagram {
         self.joined(&parts)
     }
 
+    /// The middles of round spaces, which no edge leads to, where copper is as far as any of the
+    /// `ranges` says, each with the owner all round it, if that is `wanted`.
+    pub(in crate::voronoi) fn middles_between(
+        &self,
+        ranges: &[[f64; 2]],
+        wanted: impl Fn(u32, u32) -> bool,
+    ) -> Vec<(Sample, u32)> {
+        let lone = (0_u32..).zip(self.leaving.iter()).filter(|(_, leaving)| leaving.is_empty());
+        let middle = |(vertex, _)| {
+            let sample = self.sample_at(vertex);
+            let owner = self.owner(*self.vertices[vertex as usize].tied.first()?);
+            let is_within = ranges.iter().any(|&[from, to]| (from..to).contains(&sample.clearance));
+            (is_within && owner != WALL && wanted(owner, owner)).then_some((sample, owner))
+        };
+        lone.filter_map(middle).collect()
+    }
+
     /// The unit vectors straight away from the copper on either side.
     pub(in crate::voronoi) fn away_at(&self, place: &OnAxis) -> [Spot; 2] {
         let edge = &self.edges[place.edge as usize];

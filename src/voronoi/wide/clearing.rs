@@ -80,10 +80,11 @@ impl<'a> Zone<'a> {
     pub(super) fn edges(&self, board: &Fence, room: &Room<'_>) -> Vec<Piece> {
         let Room { clearance, nearest, .. } = *room;
         let rings = |fence: &Option<Fence>| fence.iter().flat_map(Fence::rings).collect::<Vec<_>>();
-        let round = |ring: &Vec<Spot>| along(ring, clearance, nearest);
+        let round = |ring: &Vec<Spot>| along(ring, clearance, nearest, f64::INFINITY);
         let edges: Vec<Piece> = rings(&self.areas).par_iter().flat_map_iter(round).collect();
         let beside = |at: Spot| if self.is_cleared(at, room) { clearance(at) } else { 0.0 };
-        let round = |ring: &Vec<Spot>| along(ring, beside, nearest);
+        // What is to be cleared ends anywhere.
+        let round = |ring: &Vec<Spot>| along(ring, beside, nearest, STEP);
         let kept: Vec<Piece> = rings(&self.kept).par_iter().flat_map_iter(round).collect();
         let all = self.open(edges).into_par_iter().chain(kept);
         all.flat_map_iter(|piece| board.parts(piece, true)).collect()
@@ -91,7 +92,7 @@ impl<'a> Zone<'a> {
 
     /// What of the edge of `board` a pass may run along.
     pub(super) fn rims(&self, board: &Fence, room: &Room<'_>) -> Vec<Piece> {
-        let round = |ring: &Vec<Spot>| along(ring, room.clearance, room.nearest);
+        let round = |ring: &Vec<Spot>| along(ring, room.clearance, room.nearest, f64::INFINITY);
         self.open(board.rings().par_iter().flat_map_iter(round).collect())
     }
 
@@ -144,8 +145,9 @@ impl<'a> Zone<'a> {
     }
 }
 
-/// The parts of a closed line from which copper is no nearer than `nearest`.
-fn along(ring: &[Spot], clearance: impl Fn(Spot) -> f64, nearest: f64) -> Vec<Piece> {
+/// The parts of a closed line from which copper is no nearer than `nearest`; looked at in steps of
+/// at most so many nanometres.
+fn along(ring: &[Spot], clearance: impl Fn(Spot) -> f64, nearest: f64, longest: f64) -> Vec<Piece> {
     let sample = |at: Spot| Sample { at, clearance: clearance(at) };
     let is_open = |sample: &Sample| sample.clearance >= nearest;
     let mut runs: Vec<Vec<Sample>> = Vec::new();
@@ -175,7 +177,7 @@ fn along(ring: &[Spot], clearance: impl Fn(Spot) -> f64, nearest: f64) -> Vec<Pi
             let at = sample(a + (b - a) * (part / length));
             go(at);
             // Distances change no faster than the way goes.
-            part += STEP.max((at.clearance - nearest).abs() / 2.0);
+            part += STEP.max((at.clearance - nearest).abs() / 2.0).min(longest);
         }
     }
     let Some(first) = ring.first().map(|&at| sample(at)) else { return Vec::new() };

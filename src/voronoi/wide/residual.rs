@@ -114,24 +114,46 @@ impl Passes<'_> {
         let strip = [last + self.way(), last + self.way() + self.thin() / 2.0];
         let between = self.levels.windows(2).map(|pair| [pair[0] + self.way(), pair[1]]);
         let ranges: Vec<[f64; 2]> = between.chain([strip]).filter(|[low, high]| low < high).collect();
-        let mut axes = self.diagram.axes_between(&ranges, wanted);
+        let mut axes = self.diagram.axes_between(&ranges, &wanted);
+        // One owner alone encloses them.
+        let middles =
+            if open.is_none() { self.diagram.middles_between(&ranges, &wanted) } else { Vec::new() };
         if let Some(open) = open {
             // All of an axis lies beyond the first pass.
             let is_open = |place: &OnAxis| !self.diagram.is_enclosed((place.edge, place.sample.at), open);
             axes.retain(|axis| axis.places.first().is_some_and(is_open));
         }
-        if axes.is_empty() {
+        if axes.is_empty() && middles.is_empty() {
             return Vec::new();
         }
         let cleared = self.cleared(cuts, before);
+        let number = |owner: u32| Owner::Net(NetId(owner)).number();
+        let spots = middles.iter().filter_map(|&(middle, owner)| {
+            let samples = self.round(middle, &cleared)?;
+            Some(Piece { left: number(owner), right: number(owner), samples, ends: Some([Node::END; 2]) })
+        });
         let residues = axes.par_iter().flat_map_iter(|axis| {
             let places: Vec<Option<Residue>> =
                 steps(&axis.places).map(|place| self.residue(&place, &cleared)).collect();
-            let [left, right] = axis.owners.map(|owner| Owner::Net(NetId(owner)).number());
+            let [left, right] = axis.owners.map(number);
             let piece = |samples| Piece { left, right, samples, ends: Some([Node::END; 2]) };
             runs(&places).filter_map(|run| self.along(&run).map(piece)).collect::<Vec<_>>()
         });
-        residues.collect()
+        residues.chain(spots.collect::<Vec<_>>()).collect()
+    }
+
+    /// The cut that clears what is left about the middle of a round space, if it is worth one.
+    fn round(&self, middle: Sample, cleared: &Cleared) -> Option<Vec<Sample>> {
+        let Sample { at, clearance } = middle;
+        let rest = clearance - self.levels[self.inner(clearance)?] - self.way();
+        let sides = [(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)].map(|(x, y)| Spot::new(x, y));
+        let is_left = |p: Spot| !cleared.holds(p) && self.fence.holds(p);
+        let is_residue = is_left(at) || sides.iter().any(|&side| is_left(at + side * rest.max(0.0)));
+        if 2.0 * rest < CRUMB || !is_residue || !self.fence.holds(at) {
+            return None;
+        }
+        let part = (STEP / 2.0).min(rest);
+        Some(vec![Sample { at: at + sides[0] * part, clearance: clearance - part }, middle])
     }
 
     /// The last pass that runs nearer to copper than this.

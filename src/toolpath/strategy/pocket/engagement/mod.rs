@@ -71,8 +71,9 @@ pub struct Clearings {
     layers: i64,
     /// Where the tool mills in its full width.
     pub grooves: Vec<Groove>,
-    /// Where a part is wide enough for arcs and is milled in loops, since its axis is faulty.
-    pub looped: Vec<Point>,
+    /// Where a part is wide enough for arcs and is milled in loops, and whether because it would
+    /// take too many; else its axis is faulty.
+    pub looped: Vec<(Point, bool)>,
 }
 
 /// A helix needs this part of the tool's radius as room for its middle. Chosen.
@@ -126,17 +127,19 @@ impl Clearings {
             grooves: Vec::new(),
             looped: Vec::new(),
         };
+        let mut is_large = vec![false; planned.nest.roots.len()];
         for (root, clearing) in found {
-            made.parts[root] = Some(clearing);
+            is_large[root] = clearing.is_none();
+            made.parts[root] = clearing;
         }
         let width = |room: f64| Nm::from_f64(2.0 * (room + planned.levels.wall));
-        for (part, &root) in made.parts.iter().zip(&planned.nest.roots) {
+        for ((part, is_large), &root) in made.parts.iter().zip(is_large).zip(&planned.nest.roots) {
             let Some(clearing) = part else {
                 let region = &planned.nest.regions[root];
                 let ring = &planned.nest.loops[region.loops[0]].ring;
                 let at = Point::from_f64(ring[0].0, ring[0].1);
                 if !region.children.is_empty() {
-                    made.looped.push(at);
+                    made.looped.push((at, is_large));
                     continue;
                 }
                 let length = Nm::from_f64(Course::new(ring.clone()).length() / 2.0);
@@ -188,8 +191,9 @@ impl Clearings {
     }
 }
 
-/// The parts of an area, each with the number of its root among those of the nest.
-fn parts(area: &Interior<'_>, planned: &Planned<'_>, radius: f64) -> Vec<(usize, Clearing)> {
+/// The parts of an area, each with the number of its root among those of the nest; none of one that
+/// takes too many circles.
+fn parts(area: &Interior<'_>, planned: &Planned<'_>, radius: f64) -> Vec<(usize, Option<Clearing>)> {
     let axis = MedialAxis::new(std::slice::from_ref(area), &Pruning { loss: LOSS, corner: 1.0 });
     if !axis.faults.is_empty() {
         return Vec::new();
@@ -206,8 +210,8 @@ fn parts(area: &Interior<'_>, planned: &Planned<'_>, radius: f64) -> Vec<(usize,
     let wall = Wall::new(area.area(), planned.levels.wall);
     let part = |node: usize| {
         let root = planned.nest.root_at(graph.nodes[node].at)?;
-        let clearer = Clearer::run(&graph, &wall, node, bounds)?;
-        Some((root, walls(clearer, root, planned)))
+        let clearer = Clearer::run(&graph, &wall, node, bounds);
+        Some((root, clearer.map(|clearer| walls(clearer, root, planned))))
     };
     graph.roots().into_iter().filter(is_wide).filter_map(part).collect()
 }
