@@ -173,7 +173,7 @@ impl Work {
         let warnings: Vec<WarningEntry> = warnings.map(WarningEntry::from).collect();
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
         if let Some(output) = &self.output {
-            write(Output::new(input.sources(&[])), output, picture, made.programs())?;
+            write(Output::new(input.sources()), output, picture, made.programs())?;
         }
         shared.tell_stages(&stages);
         let findings = judged.as_ref().map_or(&[][..], M::findings);
@@ -253,12 +253,13 @@ impl Work {
             figures: M::verification(judged),
             findings: M::findings(judged).iter().map(FindingEntry::from).collect(),
         });
-        let programs = made.programs().iter().enumerate();
+        let programs = made.programs().iter();
         let account = Account {
             schema_version: SCHEMA_VERSION,
             name,
             figures: made.figures(),
-            programs: programs.map(|(number, one)| self.entry(number, one)).collect(),
+            // Of others in their place the figures are not known.
+            programs: programs.filter(|_| self.check.is_empty()).map(|one| self.entry(one)).collect(),
             verification,
             warnings,
             stages,
@@ -266,13 +267,11 @@ impl Work {
         serde_json::to_string_pretty(&account).expect("numbers and texts") + "\n"
     }
 
-    /// A program in the report: under the name it is written to, or that of the one that is judged
-    /// in its place.
-    fn entry(&self, number: usize, one: &OneTool) -> ProgramEntry {
+    /// A program in the report, under the name it is written to.
+    fn entry(&self, one: &OneTool) -> ProgramEntry {
         let written = self.output.as_ref().map(|output| tagged(output, &one.tag));
-        let file = written.as_deref().or(self.check.get(number).map(PathBuf::as_path));
         ProgramEntry {
-            file: file.map_or_else(String::new, name_of),
+            file: written.as_deref().map_or_else(String::new, name_of),
             title: one.program.title.clone(),
             tools: vec![one.program.sections[0].tool.kind.to_string()],
             figures: Figures::from(&one.statistics),

@@ -208,7 +208,7 @@ impl Draw {
         if self.output == Path::new("-") {
             return super::print_bytes(bytes);
         }
-        let mut output = Output::new(self.input.sources(&[]));
+        let mut output = Output::new(self.input.sources());
         output.stage(&self.output, bytes)?;
         output.commit()
     }

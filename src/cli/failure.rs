@@ -51,8 +51,8 @@ impl Failure {
 }
 
 /// A text with what a file may hold to steer terminals made visible.
-fn shown(text: &str) -> String {
-    let escaped = |c: char| c.is_control() && c != '\n';
+pub(super) fn shown(text: &str) -> String {
+    let escaped = |c: char| c.is_control() && !matches!(c, '\n' | '\t');
     text.chars().map(|c| if escaped(c) { c.escape_default().to_string() } else { c.to_string() }).collect()
 }
 

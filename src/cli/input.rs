@@ -1,7 +1,9 @@
 //! The options that name input files and their roles, shared by all commands that read a board.
 
+use std::cell::RefCell;
+use std::collections::BTreeSet;
 use std::ops::RangeInclusive;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
@@ -101,6 +103,10 @@ pub(super) struct Input {
     /// Fail and write nothing if there is any warning; for CI
     #[arg(long, help_heading = "Output")]
     pub(super) deny_warnings: bool,
+
+    /// The names of the files that were read.
+    #[arg(skip)]
+    pub(super) read: RefCell<BTreeSet<String>>,
 }
 
 /// What pictures of paper need, whatever is made of them.
@@ -209,15 +215,20 @@ impl Input {
         [front, back, outline, drill].into_iter().flatten().collect()
     }
 
-    /// The files that were read, of folders those of `read`.
-    pub(super) fn sources(&self, read: &[Source]) -> Vec<PathBuf> {
+    /// The files that were read.
+    pub(super) fn sources(&self) -> Vec<PathBuf> {
         let layers = [&self.front, &self.back, &self.outline].into_iter().flatten();
-        let named = self.paths().into_iter().chain(layers.chain(&self.drill_files).cloned());
-        let files = |path: PathBuf| match path.is_dir() {
-            true => read.iter().map(|source| path.join(&source.file)).collect(),
-            false => vec![path],
-        };
-        named.flat_map(files).collect()
+        let others = layers.chain(&self.drill_files).chain(&self.millproject).chain(&self.fonts);
+        let read = self.read.borrow();
+        let mut files = Vec::new();
+        for path in self.paths().into_iter().chain(others.cloned()) {
+            if path.is_dir() {
+                add_below(&path, &read, DEEPEST, &mut files);
+            } else {
+                files.push(drawing::file_of(&path));
+            }
+        }
+        files
     }
 
     /// What the millproject says, its files as seen from here; nothing where none is named.
@@ -340,6 +351,52 @@ impl Input {
         }
         let mut loaded = read(&paths, &selection)?;
         loaded.warnings.extend(project.left);
+        self.judge_idle(&loaded.sources)?;
+        self.read.borrow_mut().extend(loaded.sources.iter().map(|source| source.file.clone()));
         Ok(loaded)
+    }
+
+    /// Fails for an option of pictures or drawings where none was read.
+    fn judge_idle(&self, sources: &[Source]) -> Result<(), Failure> {
+        let is_any = |formats: &[&str]| {
+            sources.iter().any(|source| formats.iter().any(|format| source.format.starts_with(format)))
+        };
+        let pictures = [
+            ("--picture-dpi", self.picture_dpi.is_some()),
+            ("--picture-width", self.picture_width.is_some()),
+            ("--picture-pitch", self.scan.picture_pitch.is_some()),
+            ("--straighten", self.straighten),
+            ("--copper", self.copper.is_some()),
+            ("--invert", self.invert),
+            ("--despeckle", self.scan.despeckle.is_some()),
+            ("--crop", self.scan.crop.is_some()),
+        ];
+        let drawings = [("--unit", self.unit.is_some()), ("--font", !self.fonts.is_empty())];
+        let kinds = [
+            ("pictures", &pictures[..], is_any(&["picture"])),
+            ("drawings", &drawings, is_any(&["svg", "dxf"])),
+        ];
+        for (what, options, _) in kinds.into_iter().filter(|(.., is_read)| !is_read) {
+            if let Some((option, _)) = options.iter().find(|(_, is_given)| *is_given) {
+                let hint = format!("leave it out: it is for {what}");
+                return Err(Failure::new(format!("{option} has no effect on these files"), hint));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Folders within folders are looked into so far. Chosen: no board lies deeper.
+const DEEPEST: u32 = 8;
+
+/// Adds the files with such names in a folder, and in those inside it.
+fn add_below(folder: &Path, names: &BTreeSet<String>, deepest: u32, files: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+        let path = entry.path();
+        if path.is_dir() && deepest > 0 {
+            add_below(&path, names, deepest - 1, files);
+        } else if names.contains(&*entry.file_name().to_string_lossy()) {
+            files.push(path);
+        }
     }
 }

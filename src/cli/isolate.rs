@@ -53,7 +53,11 @@ impl Isolate {
         let is_asked = |side: &Side| self.side.is_none_or(|asked| Side::from(asked) == *side);
         let side = match sides.filter(is_asked).collect::<Vec<_>>()[..] {
             [side] => side,
-            [] => return Err(job::Error::NoCopper("in these files".to_owned()).into()),
+            [] => {
+                let place = |side| format!("on the {}", Side::from(side));
+                let place = self.side.map_or_else(|| "in these files".to_owned(), place);
+                return Err(job::Error::NoCopper(place).into());
+            }
             _ => {
                 let hint = "give the file of one layer, set --side, or use `voromill mill`";
                 return Err(Failure::new("there is copper on both sides, but a program is for one", hint));
@@ -95,7 +99,7 @@ impl Isolate {
         if self.output == Path::new("-") {
             return super::print(text);
         }
-        let mut output = Output::new(self.input.sources(&[]));
+        let mut output = Output::new(self.input.sources());
         output.stage(&self.output, text.as_bytes())?;
         output.commit()
     }

@@ -109,7 +109,7 @@ impl Level {
             shared.say(&accepted);
             return super::print_bytes(&text);
         }
-        let mut files = Output::new([self.map.clone()]);
+        let mut files = Output::new([self.map.clone(), self.program.clone()]);
         files.stage(&output, &text)?;
         files.commit()?;
         let [low, high] = done.heights.unwrap_or_default();

@@ -177,7 +177,7 @@ impl Mask {
             line.push_str(", mirrored");
         }
         shared.say(&report::warnings(&warnings, shared.is_verbose()));
-        let mut output = Output::new(self.input.sources(&[]));
+        let mut output = Output::new(self.input.sources());
         output.stage(&self.output, &bytes)?;
         output.commit()?;
         shared.report(&format!("{line}\n"))

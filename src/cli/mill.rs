@@ -142,7 +142,7 @@ impl Mill {
         files.push((format!("{}.json", job.board.name), document.to_json().into_bytes()));
         let leftovers = Leftovers::find(folder, &files, &job.sources, &settings.dialect.extension);
         self.input.judge(&leftovers.warnings(folder))?;
-        let mut output = Output::new(self.input.sources(&job.sources));
+        let mut output = Output::new(self.input.sources());
         output.make_folder(folder)?;
         let write = || {
             for (name, bytes) in &files {

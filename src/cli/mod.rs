@@ -255,14 +255,14 @@ impl Shared {
     /// Prints a line for a person, on stderr so that stdout carries results alone.
     fn say(self, text: &str) {
         if !self.quiet {
-            let _ = print_to(&mut io::stderr().lock(), text.as_bytes());
+            let _ = print_to(&mut io::stderr().lock(), failure::shown(text).as_bytes());
         }
     }
 
     /// Prints what came of it, unless nobody wants to know.
     fn report(self, text: &str) -> Result<(), Failure> {
         if !self.quiet {
-            return print(&colour::on_terminal(text));
+            return print(&colour::on_terminal(&failure::shown(text)));
         }
         Ok(())
     }
@@ -270,7 +270,7 @@ impl Shared {
     /// Prints what is wrong, on stderr, where errors alone are printed.
     fn complain(self, text: &str) {
         if self.quiet {
-            let _ = print_to(&mut io::stderr().lock(), text.as_bytes());
+            let _ = print_to(&mut io::stderr().lock(), failure::shown(text).as_bytes());
         }
     }
 

@@ -85,7 +85,7 @@ impl Probe {
         if self.output == Path::new("-") {
             return super::print(&text);
         }
-        let mut output = Output::new(self.input.sources(&[]));
+        let mut output = Output::new(self.input.sources());
         output.stage(&self.output, text.as_bytes())?;
         output.commit()?;
         let is_touch = |line: &&str| line.starts_with(|c: char| !"(;".contains(c)) && line.contains("G38.2");

@@ -61,7 +61,7 @@ impl Layer {
             nets: net_entries(&self.nets),
             translucency: self.translucency.as_ref().map(ColoursEntry::new),
             smallest_gap: self.gap.map(|gap| gap_entry(gap, &self.nets)),
-            boundaries: self.boundaries.edges.len(),
+            boundaries: self.boundaries.edges.iter().filter(|edge| !edge.is_border()).count(),
             vertices: self.boundaries.nodes.len(),
             boundary_length_mm: Millimetres(self.boundary_length()),
             frame_length_mm: self

@@ -50,7 +50,10 @@ pub fn mask(loaded: &Loaded, settings: &Settings, masking: &Masking) -> Result<(
     let nets = topology::recover(copper, method(settings.asked.topology));
     let mut warnings = topology::names_check(copper, &nets);
     // Both sides have the same page, so that they register.
-    let all = [&board.front, &board.back].into_iter().flatten().filter_map(Copper::bounds);
+    let has_frame = masking.what == What::Regions && board.outline.is_none();
+    let rim = if has_frame { settings.frame_margin } else { Nm::ZERO };
+    let of_copper = [&board.front, &board.back].into_iter().flatten().filter_map(Copper::bounds);
+    let all = of_copper.map(|bounds| bounds.inflate(rim));
     let area = all.chain(picture::whole(board, Nm::ZERO)).reduce(crate::geometry::Rect::union);
     let area = area.ok_or_else(|| Error::NoCopper("in these files".to_owned()))?;
     let sheet = match masking.what {

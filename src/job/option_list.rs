@@ -348,7 +348,7 @@ macro_rules! job_options {
     /// for; a KiCad board declares it
     #[arg(long, value_name = "LENGTH")]
     #[serde(with = "text")]
-    #[changes(PROGRAMS, INSPECTION)]
+    #[changes(PROGRAMS, PICTURES, INSPECTION)]
     pub thickness: Option<Length> = usual,
 
     /// The drills that you have, such as 0.8mm,1mm,3.2mm [default: one for each diameter in the

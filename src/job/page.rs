@@ -3,6 +3,7 @@
 use crate::report::Document;
 use crate::report::page::{Drawing, Machined, Page, SideDrawing, ToolUse};
 
+use super::verification::{lines_of_whole, unsaid};
 use super::{Error, Job, Layer, Part, Settings, Written};
 
 impl Job {
@@ -14,7 +15,7 @@ impl Job {
     pub fn page<'a>(&self, settings: &Settings, document: &'a Document) -> Result<Page<'a>, Error> {
         let side = |layer: &Layer| {
             let copper = self.board.copper(layer.side)?;
-            Some(SideDrawing::new(copper, &layer.nets, &layer.boundaries, settings.kerf()))
+            Some(SideDrawing::new(copper, &layer.nets, &layer.boundaries, &settings.kerfs()))
         };
         let programs: Vec<Machined<'_>> =
             self.programs.iter().map(|program| self.machined(program, settings)).collect();
@@ -34,6 +35,8 @@ impl Job {
             file: written.file_name(&self.board.name, settings),
             // Of several tiles the first is shown: the board is drawn once.
             text: written.tile.as_ref().unwrap_or(&written.text),
+            lines: written.tile.as_ref().map(|tile| lines_of_whole(tile, &written.text)),
+            cutter: unsaid(written, settings),
             side: match written.part {
                 Part::Front => Some(crate::board::Side::Front),
                 Part::Back => Some(crate::board::Side::Back),

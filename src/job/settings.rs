@@ -308,6 +308,16 @@ impl Settings {
         self.isolation.first().map_or(Nm::ZERO, Cutting::kerf)
     }
 
+    /// How wide the isolation cuts of each tool are at the surface, at least and at most: the
+    /// widest tool first.
+    pub(super) fn kerfs(&self) -> Vec<[Nm; 2]> {
+        let width = |cutting: &Cutting| {
+            let most = cutting.kerf();
+            [cutting.tool.least_width(cutting.heights.cut, self.adaptive_depth).min(most), most]
+        };
+        self.isolation.iter().map(width).collect()
+    }
+
     /// The width of the finest isolation cut at the surface.
     #[must_use]
     pub fn finest_kerf(&self) -> Nm {

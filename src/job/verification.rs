@@ -118,7 +118,7 @@ impl Job {
 
 /// Where each line of what mills one tile is in the whole program, which has the same lines in the
 /// same order and others between them; of one that it has not, where the one before is.
-fn lines_of_whole(tile: &str, whole: &str) -> Vec<u32> {
+pub(super) fn lines_of_whole(tile: &str, whole: &str) -> Vec<u32> {
     let whole: Vec<&str> = whole.lines().collect();
     let mut next = 0;
     let place = |line: &str| {
@@ -136,7 +136,7 @@ fn is_beside(written: &Written, settings: &Settings) -> bool {
 }
 
 /// The tool of a program that has no comments to say which it is for; none where there are several.
-fn unsaid(written: &Written, settings: &Settings) -> Option<Cutter> {
+pub(super) fn unsaid(written: &Written, settings: &Settings) -> Option<Cutter> {
     let mut tools = written.program.sections.iter().map(|section| section.tool.kind);
     let first = tools.next().filter(|_| settings.dialect.comments == Comments::None)?;
     let angle = settings.drill_tip_angle.degrees();

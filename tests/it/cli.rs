@@ -833,6 +833,11 @@ fn pictures_are_not_written_as_what_they_are_not() {
     fails(&out, &pocket, &["not written as .webp"], &["a.nc", "b.nc"]);
 }
 
+/// A square of 10 mm on a layer.
+const PLATE: &str = r#"<svg xmlns="http://www.w3.org/2000/svg" xmlns:inkscape="http://www.inkscape.org/namespaces/inkscape"
+ width="20mm" height="20mm" viewBox="0 0 20 20"><g inkscape:groupmode="layer" inkscape:label="Holes" id="Holes">
+ <rect x="5" y="5" width="10" height="10"/></g></svg>"#;
+
 /// Whoever names the same file twice keeps it.
 #[test]
 fn what_all_is_made_from_is_never_replaced() {
@@ -841,6 +846,9 @@ fn what_all_is_made_from_is_never_replaced() {
     fs::copy(fixture("gerber/clear_polarity.gbr"), path("a-F_Cu.gbr")).expect("copied");
     let plate = b"(loop)\nG21 G90\nG0 Z2\nG0 X0 Y0\nG1 Z-0.1 F60\nG1 X1\nG0 Z2\nM2\n";
     fs::write(path("a.nc"), plate).expect("written");
+    fs::create_dir(path("board")).expect("made");
+    fs::copy(path("a-F_Cu.gbr"), path("board/a-F_Cu.gbr")).expect("copied");
+    fs::write(path("plate.svg"), PLATE).expect("written");
     fs::write(path("b.nc"), "G21 G90\nG0 Z2\nM2\n").expect("written");
     fs::write(path("map.xyz"), "-5 -5 0\n5 -5 0\n-5 5 0\n5 5 0.1\n").expect("written");
     for arguments in [
@@ -850,6 +858,12 @@ fn what_all_is_made_from_is_never_replaced() {
         &["pocket", "a-F_Cu.gbr", "--tool", "endmill:0.1mm", "--depth", "0.1mm", "-o", "a-F_Cu.gbr"],
         &["diff", "a.nc", "b.nc", "--tool", "endmill:0.2mm", "-o", "b.nc"],
         &["level", "a.nc", "--map", "map.xyz", "-o", "map.xyz"],
+        &["level", "a.nc", "--map", "map.xyz", "-o", "a.nc"],
+        &["isolate", "board", "-o", "board/a-F_Cu.gbr"],
+        &["mask", "board", "--what", "copper", "-o", "board/a-F_Cu.gbr"],
+        &["draw", "board", "--format", "png", "-o", "board/a-F_Cu.gbr"],
+        &["probe", ".", "-o", "board/a-F_Cu.gbr", "--dialect", "linuxcnc"],
+        &["pocket", "plate.svg#Holes", "--tool", "endmill:1mm", "--depth", "1mm", "-o", "plate.svg"],
     ] {
         let last = |name: &&&str| path(name).is_file();
         let target = arguments.iter().rfind(last).expect("a file");

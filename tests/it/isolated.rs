@@ -137,3 +137,18 @@ fn a_pad_on_a_trace_takes_a_finer_tool_beside_it() {
     let said = stdout(&made) + &stderr(&made);
     assert!(made.status.success() && said.contains("nothing found"), "{said}");
 }
+
+/// Passes part the boundary of a gap; it is one gap nevertheless.
+#[test]
+fn a_narrow_gap_is_told_once_however_many_passes_there_are() {
+    let trace = |y: f64| line(10, (2.0, y), (28.0, y));
+    let board = board(&[0.3], &(trace(5.0) + &trace(5.35)), Some((30.0, 12.0)));
+    let options = ["--tool", "endmill:0.1mm"];
+    for more in [&[][..], &["--width", "0.5mm"], &["--width", "1mm"], &["--clear"]] {
+        let made = voromill(board.path(), &[&["isolate", "b", "-o", "b.ngc"], &options[..], more].concat());
+        let said = stdout(&made) + &stderr(&made);
+        assert!(made.status.success(), "{said}");
+        assert_eq!(said.matches("gap-narrower-than-tool").count(), 1, "{more:?}: {said}");
+        assert!(!said.contains("gaps are narrower"), "{more:?}: {said}");
+    }
+}

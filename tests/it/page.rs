@@ -4,20 +4,93 @@
 use std::path::Path;
 
 use voromill::import::{self, Selection};
-use voromill::job::{self, Options, Settings};
+use voromill::job::{self, Job, Options, Settings};
 use voromill::report::Verdict;
 
 /// The page of `fixtures/boards/<board>`, verified: its drawing as JSON, and as HTML.
 fn page(board: &str) -> (serde_json::Value, String) {
+    let (drawing, html, _) = page_with(board, "");
+    (drawing, html)
+}
+
+/// The same with settings as they stand in a file, and the job.
+fn page_with(board: &str, settings: &str) -> (serde_json::Value, String, Job) {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fixtures/boards").join(board);
     let loaded = import::load(&[folder], &Selection::default()).expect("a fixture can be read");
-    let settings = Settings::resolve(Options::default()).expect("sound settings");
+    let options = Options::from_toml("voromill.toml", settings).expect("sound options");
+    let settings = Settings::resolve(options).expect("sound settings");
     let job = job::mill(loaded, &settings).expect("a fixture can be milled");
     let mut document = job.describe(&settings);
     document.verification = Some(Verdict::from(&job.verify(&settings).expect("its programs can be judged")));
     let page = job.page(&settings, &document).expect("its programs can be read back");
     let drawing = serde_json::to_value(&page.drawing).expect("JSON");
-    (drawing, page.to_html())
+    let html = page.to_html();
+    (drawing, html, job)
+}
+
+/// The letters of the motions that a program's drawing makes, and their lines. A letter that is as
+/// the one before is left out.
+fn motions(program: &serde_json::Value) -> Vec<(char, usize)> {
+    let text = program["motions"].as_str().expect("text");
+    let starts: Vec<usize> = text.match_indices(|c: char| c.is_ascii_lowercase()).map(|(at, _)| at).collect();
+    let (mut line, mut lines, mut found) = (0, 0, Vec::new());
+    for (n, &start) in starts.iter().enumerate() {
+        let end = starts.get(n + 1).copied().unwrap_or(text.len());
+        let numbers = text[start + 1..end].replace('-', " -");
+        let numbers: Vec<i64> =
+            numbers.split_whitespace().map(|number| number.parse().expect("a number")).collect();
+        let letter = char::from(text.as_bytes()[start]);
+        let takes = match letter {
+            'n' => {
+                lines = *numbers.last().expect("a number");
+                continue;
+            }
+            's' => 3,
+            'r' | 'f' => 2,
+            'a' | 'c' => 4,
+            _ => continue,
+        };
+        for _ in 0..numbers.len() / takes {
+            line += lines;
+            lines = 1;
+            found.push((letter, usize::try_from(line).expect("a line")));
+        }
+    }
+    found
+}
+
+/// Of several tiles the page shows the first, and of a program with several tools its lines lie
+/// between those of the others.
+#[test]
+fn the_page_names_lines_of_the_whole_program() {
+    let settings = "dialect = \"linuxcnc\"\ntile = \"2x1\"\nwidth = \"1mm\"\ntool = [\"endmill:0.8mm\", \"endmill:0.3mm\"]\n";
+    let (drawing, _, job) = page_with("regulator", settings);
+    let mut seen = 0;
+    for (program, written) in drawing["programs"].as_array().expect("programs").iter().zip(&job.programs) {
+        let lines: Vec<&str> = written.text.lines().collect();
+        for (letter, line) in motions(program) {
+            let expected = match letter {
+                'r' | 's' => "G0",
+                'f' => "G1",
+                _ => "G",
+            };
+            let text = lines[line - 1];
+            assert!(text.starts_with(expected), "{}: {letter} is {text} in line {line}", program["file"]);
+            seen += usize::from(letter == 'f');
+        }
+    }
+    assert!(seen > 1000, "{seen} lines are cut");
+}
+
+/// Of several tools the finest that it takes cuts where the gap is narrow.
+#[test]
+fn the_page_knows_the_kerfs_of_all_tools() {
+    let tools = "tool = [\"endmill:0.8mm\", \"endmill:0.3mm\"]\n";
+    let (drawing, ..) = page_with("regulator", tools);
+    assert_eq!(drawing["sides"][0]["kerfs"], serde_json::json!([[800, 800], [300, 300]]));
+    let (drawing, ..) = page_with("regulator", "depth = \"0.1mm\"\nadaptive-depth = \"0.05mm\"\n");
+    let kerfs = drawing["sides"][0]["kerfs"][0].as_array().expect("two widths");
+    assert!(kerfs[0].as_i64() < kerfs[1].as_i64(), "it may rise: {kerfs:?}");
 }
 
 #[test]

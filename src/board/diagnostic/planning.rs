@@ -111,7 +111,7 @@ diagnostics! {
         "its loops are offset polygons instead, which mill the same: this is a bug in voromill",
         "report it with the file";
 
-    MASK_FROM_PADS: Warning =
+    MASK_FROM_PADS: Info =
         "mask-from-pads",
         "solder-mask openings were made from the copper pads",
         "they may differ from those of the design",

@@ -16,7 +16,7 @@ mod unit;
 
 pub(in crate::import) use contour::{Contour, Place};
 pub(in crate::import) use read::split;
-pub use read::{FORMATS, Format, looks_like, open, read};
+pub use read::{FORMATS, Format, file_of, looks_like, open, read};
 pub(in crate::import) use roles::{Part, Parts, layer, leaves, role_of};
 pub use sheet::{Drawing, Options};
 pub use unit::Unit;

@@ -58,6 +58,12 @@ pub fn open(path: &Path, options: &Options) -> Result<Drawing, Error> {
     Ok(drawing)
 }
 
+/// The file that a path names, of which a layer may be meant: `plate.svg#Holes`.
+#[must_use]
+pub fn file_of(path: &Path) -> PathBuf {
+    split(path).0
+}
+
 /// A file and the layer behind `#`, where there is no file of the whole name.
 pub(in crate::import) fn split(path: &Path) -> (PathBuf, Option<String>) {
     let whole = (path.to_path_buf(), None);

@@ -102,7 +102,7 @@ function readout() {
     const { net, edge, motion, x, y } = hover;
     if (net) lines.push(['net', net.name]);
     if (edge) {
-      const room = edge.clearance - drawing.sides[stage.sides.indexOf(hover.pane.side)].kerf / 2;
+      const room = hover.pane.side.room(edge.clearance);
       lines.push(['between', edge.owners.join(' and ')]);
       lines.push(['clearance', `${(edge.clearance / 1000).toFixed(3)} mm, ${room < 0 ? `the cut removes ${(-room / 1000).toFixed(3)} mm of copper` : `${(room / 1000).toFixed(3)} mm to spare`}`]);
     }

@@ -3,7 +3,7 @@
 class BoardSide {
   constructor(drawing, layer) {
     this.side = drawing.side;
-    this.kerf = drawing.kerf;
+    this.kerfs = drawing.kerfs;
     this.nets = drawing.nets.map((net, id) => ({
       id, label: net.label, name: layer.nets[id].name, named: layer.nets[id].named, features: layer.nets[id].features,
       paths: net.paths.map(([width, box, text]) => ({ width, box, path: new Path2D(text) })),
@@ -17,7 +17,17 @@ class BoardSide {
     }
     this.hues = chooseHues(this.nets.length, this.edges);
     this.regions = regionPaths(this.nets.length, this.edges);
-    this.heat = heatPaths(this.edges, this.kerf);
+    this.heat = heatPaths(this.edges, clearance => this.room(clearance));
+  }
+
+  // How much of the clearance at a place a cut leaves: below zero where it removes copper. Of several tools the widest that fits cuts there, and one that may rise is no wider than the gap.
+  room(clearance) {
+    for (const [least, most] of this.kerfs) {
+      if (2 * clearance >= most) return clearance - most / 2;
+      if (2 * clearance >= least) return 0;
+    }
+    const finest = this.kerfs[this.kerfs.length - 1];
+    return clearance - (finest ? finest[0] : 0) / 2;
   }
 
   // The net whose copper covers a place.
@@ -38,9 +48,10 @@ class BoardSide {
       const [left, bottom, right, top] = edge.extent;
       if (x < left - reach || x > right + reach || y < bottom - reach || y > top + reach) continue;
       for (let n = 1; n < edge.length; n++) {
-        const [off, fraction] = edge.distance(n, x, y);
+        const [off] = edge.distance(n, x, y);
         if (off > (best?.off ?? reach)) continue;
-        const clearance = edge.clearance[n - 1] + (edge.clearance[n] - edge.clearance[n - 1]) * fraction;
+        // Between two places it is nowhere less than at the nearer.
+        const clearance = Math.min(edge.clearance[n - 1], edge.clearance[n]);
         best = { off, clearance, owners: [edge.left, edge.right].map(owner => this.owner(owner)) };
       }
     }
@@ -107,13 +118,13 @@ function regionPaths(count, edges) {
 }
 
 // The lines by how far a cut may move before it touches copper: a path for each stop of the scale.
-function heatPaths(edges, kerf) {
+function heatPaths(edges, room) {
   const paths = CLEARANCE.map(() => new Path2D());
   for (const edge of edges) {
     if (edge.left === -1 || edge.right === -1) continue;
     let last = -1;
     for (let n = 1; n < edge.length; n++) {
-      const stop = clearanceStop(Math.min(edge.clearance[n - 1], edge.clearance[n]) - kerf / 2);
+      const stop = clearanceStop(room(Math.min(edge.clearance[n - 1], edge.clearance[n])));
       if (stop !== last) paths[stop].moveTo(edge.x[n - 1], edge.y[n - 1]);
       edge.draw(paths[stop], n);
       last = stop;

@@ -168,7 +168,7 @@ class Pane {
       context.stroke(this.side.lines);
     }
     if (on.heat) {
-      context.lineWidth = Math.max(3 * this.pixel, this.side.kerf * 0.5);
+      context.lineWidth = Math.max(3 * this.pixel, (this.side.kerfs[0]?.[1] ?? 0) * 0.5);
       this.side.heat.forEach((path, stop) => {
         context.strokeStyle = CLEARANCE[stop].colour;
         context.stroke(path);

@@ -21,7 +21,7 @@ pub fn film(sheet: &Sheet) -> String {
          %FSLAX46Y46*%\n%MOMM*%\n%LPD*%\nG75*\n",
         env!("CARGO_PKG_VERSION"),
         function(sheet),
-        if sheet.negative { "Negative" } else { "Positive" },
+        if is_negative(sheet) { "Negative" } else { "Positive" },
     );
     let radii = sheet.shapes().filter_map(radius);
     let codes: BTreeMap<Nm, u32> = {
@@ -43,6 +43,11 @@ pub fn film(sheet: &Sheet) -> String {
     }
     pen.text.push_str("M02*\n");
     pen.text
+}
+
+/// Whether ink is where there is no material (5.6.4): openings of a mask are such.
+fn is_negative(sheet: &Sheet) -> bool {
+    (sheet.what == What::Openings) != sheet.negative
 }
 
 fn function(sheet: &Sheet) -> &'static str {

@@ -60,8 +60,8 @@ pub struct Drawing {
 pub struct SideDrawing {
     /// Which.
     pub side: Side,
-    /// How wide a cut is at the surface.
-    pub kerf: i64,
+    /// How wide the cuts of each tool are at the surface, at least and at most: the widest first.
+    pub kerfs: Vec<[i64; 2]>,
     /// Its copper, net by net.
     pub nets: Vec<NetDrawing>,
     /// The lines between the regions of its nets.
@@ -69,12 +69,12 @@ pub struct SideDrawing {
 }
 
 impl SideDrawing {
-    /// The copper of a side with the boundaries between its nets, cut `kerf` wide.
+    /// The copper of a side with the boundaries between its nets, cut as wide as `kerfs` say.
     #[must_use]
-    pub fn new(copper: &Copper, nets: &Nets, boundaries: &Boundaries, kerf: Nm) -> Self {
+    pub fn new(copper: &Copper, nets: &Nets, boundaries: &Boundaries, kerfs: &[[Nm; 2]]) -> Self {
         Self {
             side: copper.side,
-            kerf: um(kerf),
+            kerfs: kerfs.iter().map(|kerf| kerf.map(um)).collect(),
             nets: copper::nets(copper, nets),
             edges: boundary::edges(boundaries),
         }

@@ -18,6 +18,10 @@ pub struct Machined<'a> {
     pub file: String,
     /// Its text.
     pub text: &'a str,
+    /// For each line of the text its number in the file, where that has others between.
+    pub lines: Option<Vec<u32>>,
+    /// The tool, where the text names none.
+    pub cutter: Option<Cutter>,
     /// The side it isolates; none for drilling and cutting out.
     pub side: Option<Side>,
     /// What it is for: `front`, `drill`.
@@ -79,7 +83,10 @@ pub struct ProgramDrawing {
 /// [`ReadError`] where the text cannot be followed.
 pub(super) fn drawing(program: &Machined<'_>) -> Result<ProgramDrawing, ReadError> {
     let listing = read::read(&read::without_own_code(program.text))?;
-    let cutters = cutters(program.text);
+    let mut cutters = cutters(program.text);
+    if cutters.is_empty() {
+        cutters.extend(program.cutter.map(|cutter| (1, cutter)));
+    }
     Ok(ProgramDrawing {
         file: program.file.clone(),
         part: program.part,
@@ -87,7 +94,7 @@ pub(super) fn drawing(program: &Machined<'_>) -> Result<ProgramDrawing, ReadErro
         seconds: program.seconds,
         rapid: program.rapid,
         tools: program.tools.clone(),
-        motions: motions(&listing, &program.placement, &cutters),
+        motions: motions(&listing, program, &cutters),
         cutters: cutters.iter().map(|(_, cutter)| (um(cutter.tip), widening(cutter))).collect(),
     })
 }
@@ -113,8 +120,9 @@ fn cutters(text: &str) -> Vec<(u32, Cutter)> {
     cutters
 }
 
-fn motions(listing: &Listing, placement: &Placement, cutters: &[(u32, Cutter)]) -> String {
-    let mut pen = Pen { ink: Ink::default(), placement, now: None };
+fn motions(listing: &Listing, program: &Machined<'_>, cutters: &[(u32, Cutter)]) -> String {
+    let (placement, lines) = (&program.placement, program.lines.as_deref());
+    let mut pen = Pen { ink: Ink::default(), placement, lines, now: None };
     for motion in &listing.motions {
         let cutter = cutters.partition_point(|(line, _)| *line <= motion.line).saturating_sub(1);
         pen.motion(motion, cutter);
@@ -134,6 +142,7 @@ struct Now {
 struct Pen<'a> {
     ink: Ink,
     placement: &'a Placement,
+    lines: Option<&'a [u32]>,
     now: Option<Now>,
 }
 
@@ -141,11 +150,13 @@ impl Pen<'_> {
     fn motion(&mut self, motion: &Motion, cutter: usize) {
         let (Some(to), Some(z)) = (motion.to.point(), motion.to.z) else { return };
         let (to, z) = (self.over(to), um(z));
+        let in_file = |lines: &[u32]| lines.get(motion.line as usize - 1).copied();
+        let line = self.lines.and_then(in_file).unwrap_or(motion.line);
         let Some(mut now) = self.now else {
             self.ink.put('t', &[index(cutter)]);
-            self.ink.put('n', &[i64::from(motion.line)]);
+            self.ink.put('n', &[i64::from(line)]);
             self.ink.step('s', to, &[z]);
-            self.now = Some(Now { z, feed: 0, cutter, line: motion.line });
+            self.now = Some(Now { z, feed: 0, cutter, line });
             return;
         };
         let feed = motion.feed.map_or(0, |feed| feed / 1_000_000);
@@ -159,10 +170,10 @@ impl Pen<'_> {
         if now.cutter != cutter {
             self.ink.put('t', &[index(cutter)]);
         }
-        if motion.line != now.line + 1 {
-            self.ink.put('n', &[i64::from(motion.line) - i64::from(now.line)]);
+        if line != now.line + 1 {
+            self.ink.put('n', &[i64::from(line) - i64::from(now.line)]);
         }
-        self.now = Some(Now { z, cutter, line: motion.line, ..now });
+        self.now = Some(Now { z, cutter, line, ..now });
         match motion.way {
             Way::Rapid => self.ink.step('r', to, &[]),
             Way::Feed => self.ink.step('f', to, &[]),

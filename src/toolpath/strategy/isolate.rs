@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use rustc_hash::FxHashMap;
+
 use crate::board::Warning;
 use crate::board::diagnostic::planning;
 use crate::geometry::{Nm, Path, Point, Segment};
@@ -10,7 +12,8 @@ use crate::toolpath::order::{Order, Stretch, arrange};
 use crate::toolpath::planner::hop;
 use crate::toolpath::trails::{Link, Step, walk};
 use crate::toolpath::{Direction, Heights, Machine, Move, Placement, Section, Tool};
-use crate::voronoi::{self, Boundaries, Boundary, Owner};
+use crate::topology::DisjointSets;
+use crate::voronoi::{self, Boundaries, Boundary, NodeId, Owner};
 
 use super::share::fits;
 
@@ -73,9 +76,9 @@ pub fn isolate(
 ) -> (Section, Vec<Warning>) {
     // A tool that may rise takes no more copper than at its least depth.
     let kerf = settings.tool.least_width(settings.heights.cut, settings.adaptive);
-    let mut warnings = Vec::new();
+    let mut contentions: Vec<Contention> = Vec::new();
     let mut ways = Vec::with_capacity(boundaries.edges.len() + boundaries.links.len() + frame_cuts.len());
-    for boundary in &boundaries.edges {
+    for (number, boundary) in boundaries.edges.iter().enumerate() {
         let role = role(boundary);
         if role == Role::Leave {
             continue;
@@ -83,7 +86,7 @@ pub fn isolate(
         let contention =
             (role == Role::Cut).then(|| contention(boundary, kerf, &name, settings.narrow)).flatten();
         let narrow = contention.is_some();
-        warnings.extend(contention);
+        contentions.extend(contention.map(|(room, warning)| Contention { number, room, warning }));
         if !narrow || settings.narrow == Narrow::Centre {
             ways.push(Way::boundary(boundary, role, settings));
         }
@@ -99,8 +102,48 @@ pub fn isolate(
             label: label.into(),
             moves: cut(&ways, &boundaries.nodes, settings),
         },
-        warnings,
+        of_gaps(contentions, &boundaries.edges),
     )
+}
+
+/// A boundary that comes nearer to copper than half the kerf.
+struct Contention {
+    /// Which.
+    number: usize,
+    /// How far copper is from it.
+    room: Nm,
+    warning: Warning,
+}
+
+/// One warning for each gap, at its narrowest place: passes beside it part its boundary into many.
+fn of_gaps(contentions: Vec<Contention>, edges: &[Boundary]) -> Vec<Warning> {
+    if contentions.len() < 2 {
+        return contentions.into_iter().map(|one| one.warning).collect();
+    }
+    let mut gaps = DisjointSets::new(edges.len());
+    let mut known: FxHashMap<(Owner, Owner, NodeId), usize> = FxHashMap::default();
+    for (number, edge) in edges.iter().enumerate() {
+        let (a, b) = (edge.left.min(edge.right), edge.left.max(edge.right));
+        for node in edge.ends.iter().flat_map(|&(from, to)| [from, to]) {
+            let first = *known.entry((a, b, node)).or_insert(number);
+            gaps.union(index(first), index(number));
+        }
+    }
+    let mut found: Vec<Contention> = Vec::new();
+    let mut of_gap: FxHashMap<u32, usize> = FxHashMap::default();
+    for one in contentions {
+        let at = *of_gap.entry(gaps.find(index(one.number))).or_insert(found.len());
+        match found.get_mut(at) {
+            Some(narrowest) if one.room < narrowest.room => *narrowest = one,
+            Some(_) => {}
+            None => found.push(one),
+        }
+    }
+    found.into_iter().map(|one| one.warning).collect()
+}
+
+fn index(number: usize) -> u32 {
+    u32::try_from(number).expect("below 2³² edges")
 }
 
 /// A boundary, a link or a cut round the frame.
@@ -155,13 +198,13 @@ impl<'a> Way<'a> {
     }
 }
 
-/// The warning for a boundary that comes nearer to copper than half the kerf.
+/// The room of a boundary that comes nearer to copper than half the kerf, and the warning.
 fn contention(
     boundary: &Boundary,
     kerf: Nm,
     name: impl Fn(Owner) -> String,
     narrow: Narrow,
-) -> Option<Warning> {
+) -> Option<(Nm, Warning)> {
     let (index, &clearance) =
         boundary.clearance.iter().enumerate().min_by_key(|(index, nm)| (**nm, *index))?;
     if fits(kerf, clearance) {
@@ -182,7 +225,7 @@ fn contention(
     );
     let size = (narrow == Narrow::Centre).then_some(lost);
     let warning = planning::GAP_NARROWER_THAN_TOOL.warning(message).so(done).about([left, right]).at(at);
-    Some(Warning { size, ..warning })
+    Some((clearance, Warning { size, ..warning }))
 }
 
 /// For display.
