@@ -206,12 +206,12 @@ mod tests {
         };
         let of = |mm: &str, is_guessed: bool| (format!("D10 circle {mm} mm"), is_guessed);
         for (prose, expected) in [
-            ("Apertures used in job TOP", of("0.500", true)),
-            ("All sizes are in mm.", of("0.500", false)),
-            ("Sizes in mils.", of("0.013", false)),
-            ("Units: in", of("12.700", false)),
-            ("METRIC: OFF\nUNITS: INCH", of("12.700", false)),
-            ("Format 2.3, metric, no zero suppression", of("0.500", false)),
+            ("Apertures used in job TOP", of("0.5", true)),
+            ("All sizes are in mm.", of("0.5", false)),
+            ("Sizes in mils.", of("0.0127", false)),
+            ("Units: in", of("12.7", false)),
+            ("METRIC: OFF\nUNITS: INCH", of("12.7", false)),
+            ("Format 2.3, metric, no zero suppression", of("0.5", false)),
         ] {
             assert_eq!(size(prose), expected, "{prose}");
         }
@@ -220,7 +220,7 @@ mod tests {
     #[test]
     fn squares_of_three_sizes_are_rectangles() {
         let found = described("D10 SQUARE 60 100 0\nD11 OCTAGON 60 100 0\nD12 SQUARE 60 60 0\nUnits: mil\n");
-        assert_eq!(found[0], "D10 rectangle 1.524 × 2.540 mm", "x, y and hole");
+        assert_eq!(found[0], "D10 rectangle 1.524 × 2.54 mm", "x, y and hole");
         assert!(found[1].contains("unclear"), "{found:?}");
         assert_eq!(found[2], "D12 rectangle 1.524 × 1.524 mm", "a square");
     }
