@@ -300,6 +300,16 @@ pub enum Error {
         /// Its line.
         line: u32,
     },
+    /// It cuts where nobody knows, or may: what is left of it says nothing of the copper.
+    #[error("{file}: line {line}: {what}: what it cuts cannot be compared")]
+    Unfollowed {
+        /// The program.
+        file: String,
+        /// Its line.
+        line: u32,
+        /// What it does there.
+        what: &'static str,
+    },
     /// Nothing says which side a program isolates.
     #[error("{0}: the side that this isolates is unknown")]
     NoSide(String),
@@ -340,7 +350,7 @@ impl Error {
             }
             Self::Grid(_) => "choose a larger {pixel}",
             Self::Unplaced(_) => "set its placement: {offset}, {mirror-axis}, {rotate}",
-            Self::Read { .. } | Self::Range { .. } | Self::NoMotion(_) => "",
+            Self::Read { .. } | Self::Range { .. } | Self::Unfollowed { .. } | Self::NoMotion(_) => "",
         })
     }
 }

@@ -245,3 +245,20 @@ fn ways_to_a_depth_are_no_difference() {
     let steeper = compared(&slope, &other);
     assert!(steeper.total(Change::Deeper).1 > 5.0, "a slope that is steeper: {:?}", steeper.regions);
 }
+
+#[test]
+fn what_was_not_followed_is_not_the_same() {
+    let cut = "G0 X0 Y0\nG1 Z-0.1\nG1 X5\nG0 Z2\n";
+    let known = program(0.2, cut);
+    let of = |text: String| Program { text, ..known.clone() };
+    for (other, what) in [
+        (program(0.2, &format!("G1 Z-1\nG0 Z2\n{cut}")), "line 6: it cuts at a place"),
+        (of(format!("{}G0 X50\n", known.text)), "line 12: it goes on behind its end"),
+        (of(known.text.replace(" Z2", "").replace("G1 Z-0.1\n", "")), "it cuts at a height"),
+    ] {
+        for (before, after) in [(&known, &other), (&other, &known)] {
+            let error = diff(before, after, Nm::from_um(5), &Settings::default()).expect_err(what);
+            assert!(error.to_string().contains(what), "{error}, without {what}");
+        }
+    }
+}

@@ -4,6 +4,7 @@ use bitvec::vec::BitVec;
 use rustc_hash::FxHashMap;
 
 use crate::board::{Board, Shape};
+use crate::gcode::read::{Listing, Motion, Way};
 use crate::geometry::{Arc, Nm, Point, Rect, RectIndex, Turn};
 use crate::grid::Grid;
 use crate::raster::{Label, Scene};
@@ -103,6 +104,9 @@ fn read(program: &Program, settings: &Settings) -> Result<Vec<Groove>, Error> {
     let role = program.role.unwrap_or(Role::Cutout);
     let placed = Program { role: Some(role), placement: Some(Placement::default()), ..program.clone() };
     let read = Machining::read(&placed, &Board::default(), settings)?;
+    if let Some((line, what)) = unfollowed(&read.followed.listing) {
+        return Err(Error::Unfollowed { file: program.file.clone(), line, what });
+    }
     // The same way is cut again and again, deeper each time.
     let mut known: FxHashMap<Shape, usize> = FxHashMap::default();
     let mut grooves: Vec<Groove> = Vec::new();
@@ -115,6 +119,24 @@ fn read(program: &Program, settings: &Settings) -> Result<Vec<Groove>, Error> {
         }
     }
     Ok(grooves)
+}
+
+/// The first line at which a program does what was not followed, and what that is.
+fn unfollowed(listing: &Listing) -> Option<(u32, &'static str)> {
+    let motions = || listing.motions.iter();
+    let is_low = |motion: &&Motion| motion.to.z.is_some_and(|z| z < Nm::ZERO);
+    let lost =
+        motions().find(|motion| motion.way != Way::Rapid && motion.to.point().is_none() && is_low(motion));
+    if let Some(lost) = lost {
+        return Some((lost.line, "it cuts at a place that the program has not given"));
+    }
+    // As high as the machine is by chance, from the first line to the last.
+    let has_height = motions().any(|motion| motion.to.z.is_some());
+    let cut = motions().find(|motion| motion.way != Way::Rapid && !has_height);
+    if let Some(cut) = cut {
+        return Some((cut.line, "it cuts at a height that the program has not given"));
+    }
+    listing.behind_end.map(|line| (line, "it goes on behind its end"))
 }
 
 /// The same shape whichever way it is cut.
