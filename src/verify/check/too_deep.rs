@@ -16,8 +16,8 @@
 //! nearer than two millimetres. Holes for pins on which the board is flipped go into the table.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, Wrong, cut_depth, each_stretch};
-use crate::gcode::read::Motion;
-use crate::geometry::Nm;
+use crate::gcode::read::{Motion, Way};
+use crate::geometry::{Arc, Nm};
 use crate::verify::machining::Machining;
 use crate::verify::report::Finding;
 use crate::verify::{Role, Settings};
@@ -75,7 +75,13 @@ fn check(program: &Machining, settings: &Settings) -> Vec<Finding> {
 /// The depth of the middle one of all ways below the surface, by length.
 fn usual(motions: &[Motion]) -> Nm {
     let depth = |motion: &Motion| Some(-motion.to.z.filter(|z| *z < Nm::ZERO)?);
-    let length = |motion: &Motion| Some(motion.from.point()?.distance(motion.to.point()?));
+    let length = |motion: &Motion| {
+        let (start, end) = (motion.from.point()?, motion.to.point()?);
+        Some(match motion.way {
+            Way::Arc { center, turn } => Arc { start, end, center, turn }.length(),
+            Way::Rapid | Way::Feed => start.distance(end),
+        })
+    };
     let mut ways: Vec<(Nm, f64)> =
         motions.iter().filter_map(|motion| Some((depth(motion)?, length(motion)?))).collect();
     ways.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
@@ -86,4 +92,17 @@ fn usual(motions: &[Motion]) -> Nm {
         before >= half
     });
     middle.map_or(Nm::ZERO, |(depth, _)| *depth)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn circles_count_by_their_length() {
+        let circle = "G2 X1 Y0 I1 J0\n";
+        let text = format!("G21\nG0 X1 Y0 Z2\nG1 Z-0.3 F100\n{circle}{circle}G1 Z-0.1\nG1 X3\nG0 Z2\n");
+        let listing = crate::gcode::read::read(&text).expect("it reads");
+        assert_eq!(usual(&listing.motions), Nm::from_um(300), "two of them are longer than 2 mm");
+    }
 }
