@@ -281,6 +281,10 @@ fn what_the_text_does_not_tell_is_refused_with_the_reason() {
         ("G28\nG91 G0 X1", "does not give"),
         ("G0 X0 Y0\nG2 X1 Y1 I1 J5 F1", "from its centre"),
         ("G18 G5 X1 Y1", "G17"),
+        ("G0 X0 Y0\nG90.1\nG2 X2 I1 F1", "with G90.1 an arc needs J"),
+        ("G0 X3.9e-05", "exponent"),
+        ("G4 S1 Z-1", "a dwell without P"),
+        ("S999999999\nG95 G1 X1 F50000", "a kilometre a minute"),
     ];
     for (text, reason) in cases {
         let error = read(text).expect_err(text).to_string();
@@ -320,4 +324,65 @@ fn lines_of_the_users_own_have_the_numbers_that_they_have() {
     dialect.own.before = ["%", "N5 M64 P0"].map(str::to_owned).to_vec();
     let text = write(&program(um(0, 0, -100), Vec::new()), &dialect, &header());
     assert!(text.contains("(own G-code begins)\n%\nN5 M64 P0\n(own G-code ends)\nN10 "), "{text}");
+}
+
+/// What a line does beside a code that is no motion.
+#[test]
+fn codes_that_stand_beside_a_motion_leave_it_its_words() {
+    let head = "G21 G90\nG0 X0 Y0 Z2\nG1 F100\n";
+    let cases = [
+        ("G92.1 G1 Z-5", Way::Feed, 0, Some(-5)),
+        ("G92.2 G0 X5", Way::Rapid, 5, Some(2)),
+        ("G28.1 G1 X5", Way::Feed, 5, Some(2)),
+        ("G0 G92 X-1\nX5", Way::Rapid, 6, Some(2)),
+        ("G0 G28 Z2\nG90\nX5", Way::Rapid, 5, None),
+        ("G4 P1 X15", Way::Feed, 15, Some(2)),
+        ("G4 X15", Way::Rapid, 0, Some(2)),
+    ];
+    for (text, way, x, z) in cases {
+        let listing = read(&format!("{head}{text}\n")).expect(text);
+        let last = listing.motions.last().expect("a motion");
+        let is = (last.way, last.to.x, last.to.z);
+        assert_eq!(is, (way, Some(Nm::from_mm(x)), z.map(Nm::from_mm)), "{text}");
+    }
+}
+
+#[test]
+fn loops_that_are_left_from_within_others_run_as_often_as_they_say() {
+    let inner = "o12 repeat [5]\nLEAVE\no12 endrepeat\n";
+    let cases = [
+        ("o10 repeat [3]\nX1\nINNERo10 endrepeat\n", "o10 continue", 3),
+        ("o10 repeat [3]\nX1\nINNERo10 endrepeat\n", "o10 break", 1),
+        ("o10 repeat [3]\nX1\no11 repeat [2]\nINNERo11 endrepeat\no10 endrepeat\n", "o11 break", 3),
+        ("o10 repeat [3]\nX1\no11 while [1]\nINNERo11 endwhile\no10 endrepeat\n", "o11 break", 3),
+        (
+            "o10 repeat [3]\n#1=0\no11 do\n#1=[#1+1]\nX1\nINNERo11 while [#1 lt 2]\no10 endrepeat\n",
+            "o11 continue",
+            6,
+        ),
+    ];
+    for (outer, leave, times) in cases {
+        let text = outer.replace("INNER", inner).replace("LEAVE", leave);
+        let listing = read(&format!("G21 G90\nG0 X0 Y0 Z2\nG91\n{text}")).expect(&text);
+        let last = listing.motions.last().expect("a motion");
+        assert_eq!(last.to.x, Some(Nm::from_mm(times)), "{text}");
+    }
+}
+
+#[test]
+fn feeds_probes_and_dwells_are_what_the_text_says() {
+    let of = |text: &str| read(&format!("G21 G90\n{text}\n")).expect(text);
+    let last = |text: &str| *of(text).motions.last().expect("a motion");
+    let inverse = "G0 X0 Y0 Z0\nG1 F100\nG93\nX5 F2";
+    assert_eq!(last(inverse).feed, Some(10_000_000), "5 mm in half a minute");
+    assert_eq!(last(&format!("{inverse}\nG94\nX6")).feed, None, "an old feed counts nothing any more");
+    assert_eq!(last("G0 X0 Y0 Z0\nG93 G1 X0 F2").feed, Some(1), "nothing in half a minute");
+    let probed = last("G91\nG38.2 Z-20 F50\nG90\nG92 Z1.5\nG0 Z5");
+    assert_eq!(probed.to.z, Some(Nm::from_mm(5)), "from a height that nobody knows");
+    let dwells = of("G0 X0 Y0 Z2\nG82 X1 Z-1 R1 P500 F100\nX2").dwells;
+    assert_eq!(dwells.len(), 1, "P of a cycle, once: {dwells:?}");
+    assert_eq!(dwells[0].thousandths, 500_000);
+    let notes = of("G10 L1 P1 Z-5").notes;
+    assert!(notes.iter().any(|note| note.warns && note.message.contains("G10 L1")), "{notes:?}");
+    assert_eq!(of("O1001\nG0 X0").indirect, None, "the number of a program");
 }

@@ -104,6 +104,9 @@ impl Block {
     /// A letter and its value; false where a text for the operator follows.
     fn word(&mut self, code: &mut Code<'_>, scope: &mut dyn Scope, byte: u8) -> Result<bool, ReadError> {
         let (column, letter) = (code.column(), char::from(byte));
+        if byte == b'E' && is_exponent(code) {
+            return Err(code.error("a number with an exponent, which no controller reads"));
+        }
         code.take(byte);
         let begins = matches!(code.peek(), Some(b'0'..=b'9' | b'.' | b'+' | b'-' | b'#' | b'['));
         if !begins && self.names_axes() && matches!(letter, 'X' | 'Y' | 'Z' | 'E') {
@@ -188,6 +191,17 @@ impl Block {
     fn shows_text(&self) -> bool {
         self.orders.last().is_some_and(|order| order.letter == 'M' && matches!(order.key, 0 | 10))
     }
+}
+
+/// Whether an E stands right behind a number, and digits behind it.
+fn is_exponent(code: &Code<'_>) -> bool {
+    let at = usize::try_from(code.column()).unwrap_or(1) - 1;
+    let bytes = code.pointer.source.as_bytes();
+    let is_digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
+    let behind = bytes.get(at + 1..).unwrap_or_default();
+    let behind = behind.strip_prefix(b"-").or_else(|| behind.strip_prefix(b"+")).unwrap_or(behind);
+    let before = at.checked_sub(1).and_then(|before| bytes.get(before));
+    (is_digit(before) || before == Some(&b'.')) && is_digit(behind.first())
 }
 
 fn slot(letter: char) -> usize {

@@ -115,8 +115,10 @@ struct Call {
 }
 
 /// A counted loop that is being run.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Repeat {
+    name: String,
+    /// Its first line, behind the O-word that begins it.
     first: usize,
     left: u32,
 }
@@ -249,7 +251,10 @@ impl<'a> Flow<'a> {
 
     fn o_line(&mut self, mut code: Code<'a>, name: &str, keyword: Keyword) -> Result<(), ReadError> {
         let own = self.at - 1;
-        self.machine.listing.is_indirect(code.pointer.line, "a subprogram, a branch or a loop");
+        // A number alone is where M98 goes, which says so itself.
+        if keyword != Keyword::Label {
+            self.machine.listing.is_indirect(code.pointer.line, "a subprogram, a branch or a loop");
+        }
         match keyword {
             Keyword::Label | Keyword::Do | Keyword::EndIf => {}
             Keyword::Sub => {
@@ -298,19 +303,26 @@ impl<'a> Flow<'a> {
                     0 => {
                         self.skip(&code, name, &[Keyword::EndRepeat])?;
                     }
-                    _ => self.repeats.push(Repeat { first: self.at, left: count - 1 }),
+                    _ => {
+                        let name = name.to_owned();
+                        self.repeats.push(Repeat { name, first: self.at, left: count - 1 });
+                    }
                 }
             }
-            Keyword::EndRepeat => match self.repeats.last_mut() {
-                Some(repeat) if repeat.left > 0 => {
-                    repeat.left -= 1;
-                    self.at = repeat.first;
+            Keyword::EndRepeat => {
+                let outer = self.outer_repeats();
+                let own = self.repeats[outer..].iter().rposition(|repeat| repeat.name == name);
+                let Some(own) = own.map(|own| outer + own) else {
+                    return Err(code.pointer.error(1, "expected a repeat before its end"));
+                };
+                if self.repeats[own].left > 0 {
+                    self.repeats.truncate(own + 1);
+                    self.repeats[own].left -= 1;
+                    self.at = self.repeats[own].first;
+                } else {
+                    self.repeats.truncate(own);
                 }
-                Some(_) => {
-                    self.repeats.pop();
-                }
-                None => return Err(code.pointer.error(1, "expected a repeat before its end")),
-            },
+            }
             Keyword::Break | Keyword::Continue => self.quit(&code, name, keyword)?,
         }
         Ok(())
@@ -332,15 +344,27 @@ impl<'a> Flow<'a> {
         Ok(())
     }
 
+    /// How many loops are those of whoever has called the subprogram that is being run.
+    fn outer_repeats(&self) -> usize {
+        self.calls.last().map_or(0, |call| call.loops)
+    }
+
     /// `break` and `continue`.
     fn quit(&mut self, code: &Code<'_>, name: &str, keyword: Keyword) -> Result<(), ReadError> {
-        let ends = [Keyword::EndWhile, Keyword::EndRepeat, Keyword::While];
-        let end = self.skip(code, name, &ends)?;
-        if keyword == Keyword::Continue {
+        let own = self.at - 1;
+        let begins = [Keyword::While, Keyword::Do, Keyword::Repeat];
+        let begin = self.last_of(name, own, &begins).map_or(0, |(at, _)| at);
+        self.skip(code, name, &[Keyword::EndWhile, Keyword::EndRepeat, Keyword::While])?;
+        let goes_on = keyword == Keyword::Continue;
+        if goes_on {
             // The end itself says whether it goes on.
             self.at -= 1;
-        } else if end == Keyword::EndRepeat {
-            self.repeats.pop();
+        }
+        // Loops within the block are left with it.
+        let outer = self.outer_repeats();
+        let is_within = |repeat: &Repeat| repeat.first > begin + usize::from(goes_on);
+        if let Some(within) = self.repeats[outer..].iter().position(is_within) {
+            self.repeats.truncate(outer + within);
         }
         Ok(())
     }

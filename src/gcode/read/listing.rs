@@ -157,8 +157,24 @@ pub enum Odd {
     Radius,
     /// An arc whose line does not say where it ends: a full circle.
     Endless,
+    /// A full circle whose line says where it ends.
+    Circle,
+    /// The same with G3.
+    LeftCircle,
+    /// An arc by a radius that is less than half the way to its end.
+    ShortRadius,
+    /// An arc whose ends differ in their distance from its centre by more than Mach3 takes.
+    Uneven,
+    /// An arc whose ends differ in it by less than Grbl's limit, but by more than its share.
+    SmallUneven,
+    /// An arc while coordinates are steps (G91).
+    StepArc,
+    /// G10 with L.
+    Data,
     /// A word for which none of its codes asks.
     Unasked,
+    /// The same, but for axes and for the turns of an arc.
+    Idle,
     /// A dwell without P.
     Untimed,
     /// A tool above T255.

@@ -33,8 +33,12 @@ fn without<'a>(text: &'a str, passed: &[Marks]) -> Cow<'a, str> {
         return Cow::Borrowed(text);
     }
     let (mut ends, mut out) = (None, String::with_capacity(text.len()));
-    for line in lines(text) {
-        ends = ends.or_else(|| begins(line)).filter(|ends| !is(line, ends));
+    let all: Vec<&str> = lines(text).collect();
+    // A block that nothing ends would hide all that follows: it is read.
+    let is_ended = |at: usize, ends: &str| all[at..].iter().any(|line| is(line, ends));
+    for (at, &line) in all.iter().enumerate() {
+        let new = || begins(line).filter(|ends| is_ended(at, ends));
+        ends = ends.or_else(new).filter(|ends| !is(line, ends));
         if ends.is_none() {
             out.push_str(line);
         }
@@ -58,5 +62,7 @@ mod tests {
         let read = without_own_code(text);
         assert_eq!(read, "G21\n\n\n(own G-code ends)\nG0 Z2\n\n\n; own G-code ends\n");
         assert_eq!(without_own_code("G28\n"), "G28\n", "what is not marked is read");
+        let open = "(own G-code begins)\nG28\n";
+        assert_eq!(without_own_code(open), open, "nor what nothing ends");
     }
 }

@@ -18,6 +18,8 @@ const CENTERS: [char; 3] = ['I', 'J', 'K'];
 /// share of it: Grbl's limits.
 const OFF: f64 = 5_000.0;
 const OFF_SHARE: f64 = 1e-3;
+/// The same for Mach3, without a share; half a nanometre is what rounding makes of it.
+const OFF_MACH: f64 = 2_000.5;
 /// So many turns one line may make. Chosen: more than a bore has.
 const TURNS: u32 = 10_000;
 /// How far a chord may leave an arc that no motion of the plane stands for, in nanometres. Chosen:
@@ -49,20 +51,28 @@ impl Machine {
         if let Some(word) = across {
             return Err(run.error(word, "expected the centre in the plane of the arc"));
         }
-        if ![a, b].iter().any(|&axis| run.block.get(AXES[axis]).is_some()) {
+        let is_told = [a, b].iter().any(|&axis| run.block.get(AXES[axis]).is_some());
+        if !is_told {
             self.listing.is_odd(Odd::Endless, run.line());
+        }
+        if self.modal.distance == Distance::Incremental {
+            self.listing.is_odd(Odd::StepArc, run.line());
         }
         let (start, end) = ([from_a.to_f64(), from_b.to_f64()], [to_a.to_f64(), to_b.to_f64()]);
         let center = match run.block.get('R') {
             Some(word) => {
                 self.listing.is_odd(Odd::Radius, run.line());
                 let radius = Nm::new(self.scaled(run, word)?).to_f64();
+                if libm::hypot(end[0] - start[0], end[1] - start[1]) > 2.0 * radius.abs() + 1.0 {
+                    self.listing.is_odd(Odd::ShortRadius, run.line());
+                }
                 by_radius(start, end, radius, turn).map_err(|what| run.error(word, what))?
             }
             None => self.center(run, plane, [from_a, from_b])?,
         };
         let round =
             round(start, end, center, turn, self.turns(run)?).map_err(|what| run.error(first, what))?;
+        self.odd_arc(run, &round, turn, is_told && (from_a, from_b) == (to_a, to_b));
         let from = self.axes.map(|axis| axis.at);
         let rise = from[normal].zip(to[normal]).map_or(0.0, |(from, to)| (to - from).to_f64());
         let way = round.sweep.abs() * f64::midpoint(round.radii[0], round.radii[1]);
@@ -74,6 +84,25 @@ impl Machine {
         }
     }
 
+    /// Counts arcs that some controllers refuse, or run otherwise.
+    fn odd_arc(&mut self, run: Run<'_>, round: &Round, turn: Turn, returns: bool) {
+        let [start, end] = round.radii;
+        let off = (start - end).abs();
+        // TinyG has the two limits of Grbl the wrong way round (plan_arc.c).
+        if off < OFF && off > start * OFF_SHARE {
+            self.listing.is_odd(Odd::SmallUneven, run.line());
+        }
+        if off > OFF_MACH {
+            self.listing.is_odd(Odd::Uneven, run.line());
+        }
+        if returns {
+            self.listing.is_odd(Odd::Circle, run.line());
+            if turn == Turn::CounterClockwise {
+                self.listing.is_odd(Odd::LeftCircle, run.line());
+            }
+        }
+    }
+
     /// The centre by I, J and K.
     fn center(&mut self, run: Run<'_>, plane: Plane, from: [Nm; 2]) -> Result<[f64; 2], ReadError> {
         let mut center = [0.0; 2];
@@ -81,7 +110,11 @@ impl Machine {
             let word: Option<Word> = run.block.get(CENTERS[axis]);
             let system = self.modal.system;
             let at = match (word, self.modal.centers) {
-                (None, _) => from[index],
+                (None, Distance::Incremental) => from[index],
+                (None, Distance::Absolute) => {
+                    let letter = CENTERS[axis];
+                    return Err(run.refuse(format!("with G90.1 an arc needs {letter}, too")));
+                }
                 (Some(word), Distance::Incremental) => from[index] + Nm::new(self.scaled(run, word)?),
                 (Some(word), Distance::Absolute) => {
                     let origin = self.axes[axis].origin(system);

@@ -59,7 +59,7 @@ impl Machine {
             self.listing.is_indirect(run.line(), "a drilling cycle in G91 or in another plane");
         }
         let incremental = self.modal.distance == Distance::Incremental;
-        self.remember(run, normal, incremental)?;
+        self.remember(run, cycle, normal, incremental)?;
         let (Some(bottom), Some(retract)) = (self.holes.bottom, self.holes.retract) else {
             return Err(run.error(first, "a drilling cycle needs Z and R"));
         };
@@ -100,7 +100,13 @@ impl Machine {
     }
 
     /// The words of a cycle that hold until others come.
-    fn remember(&mut self, run: Run<'_>, normal: usize, incremental: bool) -> Result<(), ReadError> {
+    fn remember(
+        &mut self,
+        run: Run<'_>,
+        cycle: Cycle,
+        normal: usize,
+        incremental: bool,
+    ) -> Result<(), ReadError> {
         let system = self.modal.system;
         let origin = if incremental { Some(Nm::ZERO) } else { self.axes[normal].origin(system) };
         let unknown = || run.refuse("an unknown depth: its zero is not given");
@@ -118,6 +124,9 @@ impl Machine {
         }
         if let Some(word) = run.block.get('P') {
             self.holes.dwell = milliseconds(word.value * 1000.0);
+            if matches!(cycle, Cycle::Drill { dwells: true } | Cycle::Bore { dwells: true }) {
+                self.listing.waits(self.holes.dwell, run.line());
+            }
         }
         Ok(())
     }

@@ -114,6 +114,8 @@ pub(super) enum Ask {
 struct Orders {
     motion: Option<Mode>,
     special: Option<Special>,
+    /// Whether that is what the axis words are for.
+    takes_axes: bool,
     ends_curve: bool,
     in_machine: bool,
     dwell: bool,
@@ -165,9 +167,13 @@ impl Machine {
         if orders.ends_curve {
             self.end_curve(run)?;
         }
-        match orders.special {
-            Some(special) => self.special(run, special)?,
-            None => self.motion(run, &orders)?,
+        self.take_mode(&orders);
+        if let Some(special) = orders.special {
+            self.special(run, special)?;
+        }
+        // What takes the axis words of a line leaves none for a motion.
+        if !orders.takes_axes {
+            self.motion(run, &orders)?;
         }
         self.listing.counts(run.line(), self.modal.counting());
         for (name, value) in &block.assignments {
@@ -242,7 +248,9 @@ impl Machine {
         let mut groups: Vec<u8> =
             meanings().filter(|meaning| !cancels(meaning)).filter_map(Meaning::group).collect();
         groups.sort_unstable();
-        if groups.windows(2).any(|pair| pair[0] == pair[1]) {
+        // A motion wants the axis words that G28 and its kind take.
+        let both = orders.takes_axes && orders.motion.is_some_and(|mode| mode != Mode::None);
+        if both && orders.ask != Some(Ask::End) || groups.windows(2).any(|pair| pair[0] == pair[1]) {
             self.listing.is_odd(Odd::Contrary, line);
         }
         if meanings().any(|meaning| cancels(&meaning)) && orders.motion != Some(Mode::None) {
@@ -261,6 +269,10 @@ impl Machine {
         let unasked = |letter: char| block.get(letter).is_some() && !asks(letter);
         if are_known && is_known && ("DHIJKLPQR".chars().any(unasked) || !block.others.is_empty()) {
             self.listing.is_odd(Odd::Unasked, line);
+        }
+        let turns = |letter: char| letter == 'P' && matches!(motion, Mode::Arc(_));
+        if are_known && is_known && "HIJKLPQR".chars().any(|letter| unasked(letter) && !turns(letter)) {
+            self.listing.is_odd(Odd::Idle, line);
         }
         if orders.dwell && block.get('P').is_none() {
             self.listing.is_odd(Odd::Untimed, line);
@@ -290,12 +302,24 @@ impl Machine {
                 Meaning::Unit(unit) => (self.modal.unit, self.modal.unit_given) = (unit, true),
                 Meaning::Distance(distance) => self.modal.distance = distance,
                 Meaning::Centers(centers) => self.modal.centers = centers,
-                Meaning::FeedMode(mode) => self.modal.feed_mode = mode,
+                Meaning::FeedMode(mode) => {
+                    // NIST RS274/NGC §3.5.19 and Grbl: a feed does not outlast what it counts.
+                    if (mode == FeedMode::Inverse) != (self.modal.feed_mode == FeedMode::Inverse) {
+                        self.modal.feed = None;
+                    }
+                    self.modal.feed_mode = mode;
+                }
                 Meaning::ToInitial(to_initial) => self.modal.to_initial = to_initial,
                 Meaning::Dwell => orders.dwell = true,
                 Meaning::System(system) => self.choose(system, run.line()),
                 Meaning::MachineCoordinates => orders.in_machine = true,
-                Meaning::Special(special) => orders.special = Some(special),
+                Meaning::Special(special) => {
+                    orders.special = Some(special);
+                    // Not of G28.1 and G30.1, which keep the place where the tool is.
+                    let keeps = matches!(order.key, 281 | 301);
+                    let takes = !keeps && !matches!(special, Special::Drop { .. } | Special::Restore);
+                    orders.takes_axes |= takes;
+                }
                 Meaning::Compensation(on) => self.compensated = on.then_some(run.line()),
                 Meaning::Spindle(on) => self.modal.spinning = on,
                 Meaning::Backwards => {

@@ -4,7 +4,7 @@ use crate::gcode::read::block::{Block, Word};
 use crate::gcode::read::error::ReadError;
 use crate::gcode::read::expression::index;
 use crate::gcode::read::frame::SYSTEMS;
-use crate::gcode::read::listing::Way;
+use crate::gcode::read::listing::{Odd, Way};
 use crate::gcode::read::meaning::{Distance, Special};
 use crate::gcode::read::source::Pointer;
 use crate::geometry::Nm;
@@ -162,11 +162,16 @@ impl Machine {
             self.listing.note(true, run.line(), "G10 without L is ignored");
             return Ok(());
         };
+        self.listing.is_odd(Odd::Data, run.line());
         let which = run.block.get('P').map_or(Some(0), |word| index(word.value));
         let wrong = || run.error(kind, "expected L1, L2, L10, L11 or L20, and P from 0 to 9");
         let which = which.ok_or_else(wrong)? as usize;
         match index(kind.value) {
-            Some(1 | 10 | 11) => return Ok(()),
+            Some(kind @ (1 | 10 | 11)) => {
+                let what = format!("G10 L{kind} changes the tool table: lengths of tools shift heights");
+                self.listing.note(true, run.line(), what);
+                return Ok(());
+            }
             Some(2 | 20) if which <= SYSTEMS => {}
             _ => return Err(wrong()),
         }

@@ -4,6 +4,7 @@ use crate::gcode::read::block::Word;
 use crate::gcode::read::error::ReadError;
 use crate::gcode::read::expression::index;
 use crate::gcode::read::meaning::FeedMode;
+use crate::geometry::Nm;
 
 use super::{Machine, Run};
 
@@ -29,7 +30,7 @@ impl Machine {
                             "a feed per revolution, but the program does not give the spindle speed",
                         )
                     })?;
-                    self.modal.feed = Some(self.scaled(run, word)? * i64::from(turns));
+                    self.modal.feed = Some(self.per_turn(run, word, turns)?);
                 }
             }
         }
@@ -63,6 +64,13 @@ impl Machine {
             self.listing.waits(milliseconds(p.value * 1000.0), run.line());
         }
         Ok(())
+    }
+
+    /// A feed of so much in each turn of the spindle, in nanometres per minute.
+    pub(super) fn per_turn(&self, run: Run<'_>, word: Word, turns: u32) -> Result<i64, ReadError> {
+        let feed = self.scaled(run, word)?.checked_mul(i64::from(turns));
+        let feed = feed.filter(|feed| Nm::new(*feed).to_f64().abs() < LARGEST);
+        feed.ok_or_else(|| run.error(word, "expected a feed below a kilometre a minute"))
     }
 
     /// A length or feed in nanometres, halves away from zero.

@@ -16,18 +16,25 @@ const MOTIONS: usize = 5_000_000;
 const TOP: Nm = Nm::from_mm(10);
 
 impl Machine {
+    /// The kind of motion that holds from a line on.
+    pub(super) fn take_mode(&mut self, orders: &Orders) {
+        let Some(mode) = orders.motion else { return };
+        if let (Mode::Cycle(_), false) = (mode, matches!(self.modal.mode, Mode::Cycle(_))) {
+            self.begin_cycle();
+        }
+        self.modal.mode = mode;
+    }
+
     /// The motion of a line, if it has one.
     pub(super) fn motion(&mut self, run: Run<'_>, orders: &Orders) -> Result<(), ReadError> {
-        if let Some(mode) = orders.motion {
-            if let (Mode::Cycle(_), false) = (mode, matches!(self.modal.mode, Mode::Cycle(_))) {
-                self.begin_cycle();
-            }
-            self.modal.mode = mode;
-        }
         let block = run.block;
-        // The words of a dwell or a call are its own.
+        // The words of a call are its own, and of a dwell without P the X that is its time.
         let calls = block.orders.iter().any(|order| meaning(order.letter, order.key) == Meaning::Call);
-        if (orders.dwell && orders.motion.is_none()) || calls {
+        let is_timed = orders.dwell && orders.motion.is_none() && block.get('P').is_none();
+        if is_timed && let Some(word) = block.first("YZ") {
+            return Err(run.error(word, "a dwell without P beside a coordinate: controllers differ in it"));
+        }
+        if is_timed || calls {
             return Ok(());
         }
         let letters = if matches!(self.modal.mode, Mode::Arc(_)) { "XYZIJKR" } else { "XYZ" };
@@ -63,8 +70,7 @@ impl Machine {
                 .block
                 .get('K')
                 .ok_or_else(|| run.refuse("expected K, the feed per revolution of the spindle"))?;
-            let turns = self.modal.speed.map_or(0, i64::from);
-            self.modal.feed = Some(self.scaled(run, lead)?.abs() * turns);
+            self.modal.feed = Some(self.per_turn(run, lead, self.modal.speed.unwrap_or(0))?.abs());
             self.go(run, Way::Feed, to)?;
             return if returns { self.go(run, Way::Feed, from) } else { Ok(()) };
         }
@@ -134,6 +140,8 @@ impl Machine {
         for axis in 0..3 {
             self.axes[axis].found = to[axis] != from[axis];
         }
+        // Where nobody knows how high it begins, it seems to begin where it touches.
+        self.axes[2].found |= run.block.get('Z').is_some();
         self.probed = to;
         Ok(())
     }
@@ -158,7 +166,9 @@ impl Machine {
             self.listing.is_indirect(run.line(), "a feed that counts the time of a motion (G93)");
             let missing = || run.refuse("with G93 each line that cuts needs an F");
             let feed = self.inverse.ok_or_else(missing)?;
-            self.modal.feed = Some(Nm::from_f64(length * feed).get());
+            // Without a way it is done at any feed above zero.
+            let per_minute = Nm::from_f64(length * feed).get();
+            self.modal.feed = Some(if length > 0.0 { per_minute } else { i64::from(feed > 0.0) });
         }
         Ok(())
     }
