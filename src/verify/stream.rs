@@ -24,18 +24,37 @@ pub(super) enum Feature {
     Parameter,
     /// An O-word.
     Subprogram,
+    /// An O-word that is more than the number of a program.
+    Flow,
+    /// A `/` at the beginning.
+    Deleted,
+    /// A beginning that Smoothieware does not know.
+    Other,
+    /// A lower-case letter at the beginning.
+    LowerCase,
     /// A `%` that begins or ends a tape.
     Percent,
     /// More characters than Grbl keeps.
     Long,
+    /// Code behind what Marlin keeps.
+    Cut,
     /// A comment within a comment in parentheses.
     Nested,
+    /// More of the outer comment behind it.
+    Resumed,
     /// A number of more digits than Grbl takes.
     HighNumber,
 }
 
 /// So many characters of a line Grbl keeps, blanks and comments not counted (protocol.c of 1.1h).
 const KEPT: usize = 79;
+
+/// So many characters of a line Marlin keeps, blanks and comments in parentheses among them
+/// (MAX_CMD_SIZE of 2.0).
+const BUFFERED: usize = 96;
+
+/// What lines begin with that Smoothieware runs (GcodeDispatch.cpp), and what is no code.
+const BEGINNINGS: &str = "GMTSNXYZF%$";
 
 /// The highest number of a line that Grbl takes (gcode.h of 1.1h).
 const HIGHEST: u64 = 10_000_000;
@@ -56,7 +75,8 @@ pub(super) fn features(text: &str, listing: &Listing) -> Vec<(Feature, Tally)> {
 /// Whether a line has no more than words and numbers, none of them its own: most have.
 fn is_plain(line: &str) -> bool {
     let tells = |byte: u8| matches!(byte, b'#' | b'%' | b'(' | b'[' | b'N' | b'O' | b'n' | b'o');
-    line.len() <= KEPT && !line.bytes().any(tells)
+    let begins = line.trim_start().chars().next().is_none_or(|c| BEGINNINGS.contains(c));
+    begins && line.len() <= KEPT && !line.bytes().any(tells)
 }
 
 /// A line without blanks and comments, and where its comments in parentheses are.
@@ -66,24 +86,39 @@ struct Text {
     has_comment: bool,
     goes_on_behind: bool,
     is_nested: bool,
+    /// Whether a comment goes on behind one within it.
+    resumes: bool,
+    /// What the code begins with.
+    first: Option<char>,
+    /// How many characters there are up to the last of the code.
+    reach: usize,
 }
 
 impl Text {
     /// Comments in comments count as one: some write the name of a tool so.
     fn of(line: &str) -> Self {
         let (mut text, mut depth) = (Self::default(), 0_u32);
-        for c in line.chars() {
+        // Whether a comment has ended within the one that is read.
+        let mut inner_ended = false;
+        for (before, c) in line.trim_start().chars().enumerate() {
             match c {
                 '(' => {
                     text.is_nested |= depth > 0;
+                    text.resumes |= depth > 0 && inner_ended;
+                    inner_ended &= depth > 0;
                     depth += 1;
                 }
-                ')' if depth > 0 => depth -= 1,
-                _ if depth > 0 => {}
+                ')' if depth > 0 => {
+                    depth -= 1;
+                    inner_ended = depth > 0;
+                }
+                _ if depth > 0 => text.resumes |= inner_ended && !c.is_whitespace(),
                 ';' => break,
                 c if c.is_whitespace() || c.is_control() => {}
                 c => {
                     text.goes_on_behind |= text.has_comment;
+                    text.first = text.first.or(Some(c));
+                    text.reach = before + 1;
                     text.code.push(c.to_ascii_uppercase());
                 }
             }
@@ -101,6 +136,11 @@ impl Text {
         let sets = words.contains("M110");
         *last = number.or(*last);
         let here = |is: bool, feature: Feature| is.then_some(feature);
+        let label = words.strip_prefix('O').map(|name| name.trim_start_matches(|c: char| c.is_ascii_digit()));
+        let flows = label.is_some_and(|rest| !rest.is_empty());
+        let first = self.first;
+        // What begins with `/` or O is told as that.
+        let is_other = first.is_some_and(|c| c.is_ascii_uppercase() && c != 'O' && !BEGINNINGS.contains(c));
         let among = [
             here(self.has_comment && !code.is_empty(), Feature::BesideComment),
             here(self.goes_on_behind, Feature::BehindComment),
@@ -108,6 +148,12 @@ impl Text {
             here(!follows && !sets, Feature::OutOfOrder),
             here(code.contains(['#', '[']) && !code.starts_with('$'), Feature::Parameter),
             here(words.starts_with('O'), Feature::Subprogram),
+            here(flows, Feature::Flow),
+            here(first == Some('/'), Feature::Deleted),
+            here(is_other, Feature::Other),
+            here(first.is_some_and(|c| c.is_ascii_lowercase()), Feature::LowerCase),
+            here(self.reach > BUFFERED, Feature::Cut),
+            here(self.resumes, Feature::Resumed),
             here(code.starts_with('%'), Feature::Percent),
             here(code.chars().count() > KEPT, Feature::Long),
             here(self.is_nested, Feature::Nested),
@@ -215,6 +261,11 @@ mod tests {
     fn comments_lie_beside_code_before_it_or_alone() {
         assert_eq!(of("(end mill)\n; (a)\nG0 X1 ; (b (c))\n"), [], "alone");
         assert_eq!(of("(end mill (long))\n"), [(Feature::Nested, 1, 1)], "within one");
+        assert_eq!(
+            of("(a (long) mill)\n"),
+            [(Feature::Nested, 1, 1), (Feature::Resumed, 1, 1)],
+            "and more behind it"
+        );
         assert_eq!(of("G0 X1\nG0 X1 (up)\n"), [(Feature::BesideComment, 2, 1)], "behind the code");
         assert_eq!(
             of("(on) M3\nG0 (up) Z2\n"),
@@ -242,9 +293,20 @@ mod tests {
                 (Feature::Unchecked, 3, 1),
                 (Feature::Parameter, 3, 1),
                 (Feature::Subprogram, 2, 1),
+                (Feature::Flow, 2, 1),
+                (Feature::Deleted, 3, 1),
                 (Feature::Percent, 1, 1),
             ]
         );
+        assert_eq!(of("O0001\n"), [(Feature::Subprogram, 1, 1)], "the number of a program");
+        assert_eq!(
+            of("g0 X1\nI1 G0\n"),
+            [(Feature::Other, 2, 1), (Feature::LowerCase, 1, 1)],
+            "what begins otherwise"
+        );
+        let far = format!("G0 X1{}Y1 ; {}\n", " ".repeat(90), "=".repeat(90));
+        assert_eq!(of(&far), [], "96 characters and a comment");
+        assert_eq!(of(&far.replace("Y1", " Y1")), [(Feature::Cut, 1, 1)], "97 of them");
         let (kept, long) = ("X1 ".repeat(39) + "Y", "X1 ".repeat(39) + "Y1");
         assert_eq!(of(&kept), [], "79 characters without blanks");
         assert_eq!(of(&long), [(Feature::Long, 1, 1)], "80 of them");

@@ -85,6 +85,68 @@ fn what_grbl_does_not_take_is_told() {
     assert!(!said.contains("an arc without X and Y"), "its X says where it ends: {said}");
 }
 
+#[test]
+fn what_other_controllers_take_otherwise_is_told() {
+    let whole = text(&PAUSED, Part::Drill);
+    let of = |dialect: &str, line: &str| {
+        let changed = whole.replacen("\nM5\n", &format!("\nG0 Z3\nG0 X5 Y5\nG1 F100\n{line}\nM5\n"), 1);
+        let changed = changed.replace("dialect grbl", &format!("dialect {dialect}"));
+        found(&PAUSED.board, program(&changed)).1
+    };
+    let far = format!("G0 Z5{}F100", " ".repeat(95));
+    for (dialect, line, what) in [
+        ("grbl", "G0 G28 Z5", "codes of which one alone can hold"),
+        ("grbl", "G2 X7 R0.9999", "an arc whose R is less"),
+        ("grblhal", "M98 P9 L0\nO9", "M98: grblhal runs no subprogram"),
+        ("grblhal", "(a (b))", "a comment within a comment"),
+        ("grblhal", "G0 Z5 H1", "a word for which none of its codes asks"),
+        ("fluidnc", "G2 I1 J0", "an arc without X and Y"),
+        ("fluidnc", "G95\nG94 F100", "G95: fluidnc stops"),
+        ("fluidnc", "(a (b) c)", "a comment that goes on"),
+        ("fluidnc", "G4 S3", "a dwell without P"),
+        ("tinyg", "o9 if [1]\nG0 Z5\no9 endif", "a subprogram, a branch or a loop"),
+        ("tinyg", "G38.3 Z2 F10", "G38.3: tinyg stops"),
+        ("tinyg", "/G0 Z5", "a line that begins with `/`"),
+        ("tinyg", "G2 X5 I1 J0", "a full circle with X and Y"),
+        ("tinyg", "G2 X7.002 I1 J0", "by more than 0.1 %"),
+        ("g2core", "G3 X5 I1 J0", "a full circle of G3"),
+        ("mach3", "G2 X7.0045 I1 J0", "by more than 0.002 mm"),
+        ("smoothieware", "g0 Z5", "a lower-case letter"),
+        ("smoothieware", "R1 G0 Z5", "does not begin with G M T S N X Y Z or F"),
+        ("marlin", "G28 Z5", "G28: marlin goes to its switches"),
+        ("marlin", "G53 G0 Z0", "G53: marlin counts it from the bed"),
+        ("marlin", "G0 Z[2+3]", "a parameter or an expression"),
+        ("marlin", "G10 L2 P2 Z5", "G10 with L"),
+        ("marlin", &far, "code behind its 96th character"),
+        ("reprapfirmware", "G30", "G30: reprapfirmware takes it for a probe"),
+        ("klipper", "G53 G0 Z0", "G53: klipper does not take it"),
+        ("klipper", "G38.2 Z2 F10", "G38.2: klipper passes over it"),
+        ("klipper", "G91 G2 X2 I1 J0\nG90", "an arc in G91"),
+    ] {
+        let said = of(dialect, line);
+        assert!(said.contains(what), "{dialect}, {line}: {said}");
+    }
+    for (dialect, line, what) in [
+        ("fluidnc", "(a (b))", "a comment"),
+        ("grblhal", "G2 X5 I1 J0 P2", "a word for which"),
+        ("tinyg", "G2 X7.0009 I1 J0", "0.1 %"),
+        ("mach3", "G2 X7.0015 I1 J0", "0.002 mm"),
+        ("smoothieware", "O9", "does not begin"),
+        (
+            "marlin",
+            "(a comment that is long, in a line of its own, where nothing is lost with what is behind its 96 characters)",
+            "96th",
+        ),
+    ] {
+        let said = of(dialect, line);
+        assert!(!said.contains(what), "{line}: {said}");
+    }
+    let nobody = whole.replace("dialect grbl", "for somebody");
+    let nobody = nobody.replacen("\nM5\n", "\nG90 G91 G0 Z5\nG90\nM5\n", 1);
+    let (names, said) = found(&PAUSED.board, program(&nobody));
+    assert!(names.contains(&"unclear") && said.contains("of its codes one alone can hold"), "{said}");
+}
+
 /// Bytes of a file that is no UTF-8 are what the controller gets; in UTF-8 an umlaut has a byte
 /// that Grbl takes for its safety door.
 #[test]

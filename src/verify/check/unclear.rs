@@ -14,7 +14,7 @@
 //! can know, is no finding: such a program is not judged.
 
 use super::{Check, Diagnostic, Run, Severity, Stage, Words, cut_depth, often};
-use crate::gcode::read::{Motion, Note, Spindle, Way};
+use crate::gcode::read::{Motion, Note, Odd, Spindle, Tally, Way};
 use crate::verify::followed::Followed;
 use crate::verify::report::Finding;
 
@@ -54,5 +54,11 @@ fn check(program: &Followed) -> Vec<Finding> {
         let what = "it cuts at a place that the program has not given: that cut was not judged";
         of(Severity::Error, motion.line, what.to_owned())
     });
-    program.listing.notes.iter().map(note).chain(knob).chain(lost).collect()
+    // Of a controller that is known, `word-not-taken` says what it does.
+    let contrary = program.listing.odd.get(&Odd::Contrary).filter(|_| program.controller.is_none());
+    let contrary = contrary.map(|&Tally { line, count }| {
+        let what = "of its codes one alone can hold: most controllers stop there, and others take the last";
+        of(Severity::Warning, line, what.to_owned() + &often(count, "times"))
+    });
+    program.listing.notes.iter().map(note).chain(knob).chain(contrary).chain(lost).collect()
 }

@@ -63,13 +63,16 @@ const CYCLES: &str = "G73 G74 G81 G82 G83 G84 G85 G86 G89";
 const STOPS: &str = "stops there with an error";
 const PASSES: &str = "passes over it, and does not wait";
 
+const HOMES: &str = "goes to its switches, and where one is at the bed, down through the board";
+
 const NO_HOLE: &str = "passes over it, and drills no hole";
 
 const RULES: &[Rule] = &[
     Rule { controllers: &["grbl"], codes: AllBut(GRBL), does: STOPS },
     Rule { controllers: &["grblhal", "fluidnc"], codes: These("G90.1"), does: STOPS },
     Rule { controllers: &["fluidnc"], codes: These("G43 G64 G98 G99"), does: STOPS },
-    Rule { controllers: &["tinyg"], codes: These("G43 G95"), does: STOPS },
+    Rule { controllers: &["fluidnc"], codes: These("G59.1 G59.2 G59.3 G61.1 G95"), does: STOPS },
+    Rule { controllers: &["tinyg"], codes: These("G38.3 G38.4 G38.5 G43 G95"), does: STOPS },
     Rule { controllers: &["fluidnc", "tinyg", "g2core"], codes: These(CYCLES), does: STOPS },
     Rule { controllers: &["marlin", "klipper"], codes: These(CYCLES), does: NO_HOLE },
     Rule { controllers: &["smoothieware"], codes: These("G73 G74 G84 G85 G86 G89"), does: NO_HOLE },
@@ -101,6 +104,29 @@ const RULES: &[Rule] = &[
         codes: These("G90.1"),
         does: "does not take it, and counts I and J from where the arc begins",
     },
+    Rule { controllers: &["marlin", "reprapfirmware", "klipper"], codes: These("G28"), does: HOMES },
+    Rule {
+        controllers: &["marlin", "reprapfirmware"],
+        codes: These("G30"),
+        does: "takes it for a probe of its bed, and sends the tool down into the board",
+    },
+    Rule { controllers: &["klipper"], codes: These("G30 G53"), does: "does not take it, and does not move" },
+    Rule {
+        controllers: &["marlin", "reprapfirmware"],
+        codes: These("G53"),
+        does: "counts it from the bed, which is below the board, and not from the top",
+    },
+    Rule {
+        controllers: &["klipper"],
+        codes: These("G38.2 G38.3 G38.4 G38.5"),
+        does: "passes over it, and finds no surface",
+    },
+    Rule {
+        controllers: &["marlin", "klipper", "smoothieware", "tinyg", "g2core", "fluidnc", "grblhal"],
+        codes: These("M98"),
+        does: "runs no subprogram of the file",
+    },
+    Rule { controllers: &["reprapfirmware"], codes: These("M98"), does: "runs another file" },
     Rule { controllers: &["reprapfirmware"], codes: These("M0"), does: "ends the job there" },
     Rule { controllers: &["marlin", "reprapfirmware"], codes: These("M30"), does: "deletes a file there" },
 ];
@@ -126,6 +152,8 @@ struct LineRule {
     /// What they do, behind the name of the controller.
     does: &'static str,
 }
+
+const IS_UNKNOWN: &str = "does not know it, and stops, or goes elsewhere";
 
 const NOT_TAKEN: &str = "does not take the line, and asks for another";
 
@@ -185,21 +213,105 @@ const LINES: &[LineRule] = &[
         does: STOPS,
     },
     LineRule {
+        controllers: &["marlin", "klipper", "smoothieware", "tinyg", "g2core"],
+        feature: Feature::Parameter,
+        what: "a line with a parameter or an expression",
+        does: IS_UNKNOWN,
+    },
+    LineRule {
+        controllers: &["marlin", "klipper", "smoothieware", "tinyg", "g2core"],
+        feature: Feature::Flow,
+        what: "a subprogram, a branch or a loop",
+        does: IS_UNKNOWN,
+    },
+    LineRule {
+        controllers: &["marlin", "klipper"],
+        feature: Feature::Run(Odd::Data),
+        what: "G10 with L",
+        does: "sets no zero with it",
+    },
+    LineRule {
+        controllers: &["tinyg", "smoothieware"],
+        feature: Feature::Deleted,
+        what: "a line that begins with `/`",
+        does: "passes over it",
+    },
+    LineRule {
+        controllers: &["smoothieware"],
+        feature: Feature::Other,
+        what: "a line that does not begin with G M T S N X Y Z or F",
+        does: "passes over it",
+    },
+    LineRule {
+        controllers: &["smoothieware"],
+        feature: Feature::LowerCase,
+        what: "a line that begins with a lower-case letter",
+        does: "takes it for a command of its own",
+    },
+    LineRule {
+        controllers: &["marlin"],
+        feature: Feature::Cut,
+        what: "a line with code behind its 96th character",
+        does: "drops the rest",
+    },
+    LineRule {
+        controllers: &["fluidnc"],
+        feature: Feature::Resumed,
+        what: "a comment that goes on behind one within it",
+        does: STOPS,
+    },
+    LineRule {
         controllers: &["grbl"],
         feature: Feature::Subprogram,
         what: "a line with an O-word",
         does: STOPS,
     },
     LineRule {
-        controllers: &["grbl", "linuxcnc"],
+        controllers: &["grbl", "grblhal", "linuxcnc"],
         feature: Feature::Nested,
         what: "a comment within a comment",
         does: STOPS,
     },
     LineRule {
-        controllers: &["grbl"],
+        controllers: &["grbl", "grblhal", "fluidnc"],
         feature: Feature::Run(Odd::Endless),
         what: "an arc without X and Y",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["tinyg"],
+        feature: Feature::Run(Odd::Circle),
+        what: "a full circle with X and Y",
+        does: "does not move",
+    },
+    LineRule {
+        controllers: &["g2core"],
+        feature: Feature::Run(Odd::LeftCircle),
+        what: "a full circle of G3 with X and Y",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl", "grblhal", "fluidnc"],
+        feature: Feature::Run(Odd::ShortRadius),
+        what: "an arc whose R is less than half the way to its end",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["tinyg"],
+        feature: Feature::Run(Odd::SmallUneven),
+        what: "an arc whose ends are not as far from its centre, by more than 0.1 %",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["mach3"],
+        feature: Feature::Run(Odd::Uneven),
+        what: "an arc whose ends are not as far from its centre, by more than 0.002 mm",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["klipper"],
+        feature: Feature::Run(Odd::StepArc),
+        what: "an arc in G91",
         does: STOPS,
     },
     LineRule {
@@ -221,7 +333,13 @@ const LINES: &[LineRule] = &[
         does: STOPS,
     },
     LineRule {
-        controllers: &["grbl", "linuxcnc"],
+        controllers: &["grblhal", "fluidnc"],
+        feature: Feature::Run(Odd::Idle),
+        what: "a line with a word for which none of its codes asks",
+        does: STOPS,
+    },
+    LineRule {
+        controllers: &["grbl", "grblhal", "fluidnc", "linuxcnc"],
         feature: Feature::Run(Odd::Untimed),
         what: "a dwell without P",
         does: STOPS,
