@@ -304,7 +304,7 @@ mod tests {
             [(Feature::Other, 2, 1), (Feature::LowerCase, 1, 1)],
             "what begins otherwise"
         );
-        let far = format!("G0 X1{}Y1 ; {}\n", " ".repeat(90), "=".repeat(90));
+        let far = format!("G0 X1{}Y1 ; {}\n", " ".repeat(89), "=".repeat(90));
         assert_eq!(of(&far), [], "96 characters and a comment");
         assert_eq!(of(&far.replace("Y1", " Y1")), [(Feature::Cut, 1, 1)], "97 of them");
         let (kept, long) = ("X1 ".repeat(39) + "Y", "X1 ".repeat(39) + "Y1");

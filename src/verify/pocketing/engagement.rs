@@ -112,6 +112,10 @@ const PARTS: f64 = 60_000.0;
 /// Parts of engagement that are told apart.
 const BINS: usize = 10_000;
 
+/// So many tiles are followed at once: what each has seen is kept until all of them have. Chosen:
+/// enough for any number of cores, and some megabytes.
+const AT_ONCE: usize = 256;
+
 /// Follows a mill along its way.
 pub(super) fn borne(stretches: &[Stretch], work: &Work<'_>) -> Borne {
     let Some(reached) = Reached::new(work) else { return Borne::default() };
@@ -124,8 +128,11 @@ pub(super) fn borne(stretches: &[Stretch], work: &Work<'_>) -> Borne {
         near.iter().for_each(|&number| mill.follow(&stretches[number], step));
         mill.load
     };
-    let loads: Vec<Load> = tiles.par_iter().map(load).collect();
-    loads.into_iter().fold(Load::default(), Load::and).borne()
+    let add = |all: Load, tiles: &[(Tile, Vec<usize>)]| {
+        let loads: Vec<Load> = tiles.par_iter().map(load).collect();
+        loads.into_iter().fold(all, Load::and)
+    };
+    tiles.chunks(AT_ONCE).fold(Load::default(), add).borne()
 }
 
 impl Stretch {
