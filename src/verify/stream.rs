@@ -308,7 +308,7 @@ mod tests {
         assert_eq!(of(&far), [], "96 characters and a comment");
         assert_eq!(of(&far.replace("Y1", " Y1")), [(Feature::Cut, 1, 1)], "97 of them");
         let (kept, long) = ("X1 ".repeat(39) + "Y", "X1 ".repeat(39) + "Y1");
-        assert_eq!(of(&kept), [], "79 characters without blanks");
-        assert_eq!(of(&long), [(Feature::Long, 1, 1)], "80 of them");
+        assert_eq!(of(&kept), [(Feature::Cut, 1, 1)], "79 characters without blanks");
+        assert_eq!(of(&long), [(Feature::Long, 1, 1), (Feature::Cut, 1, 1)], "80 of them");
     }
 }
