@@ -95,16 +95,16 @@ pub(super) fn of_word<T: DeserializeOwned>(word: &str) -> Result<T, Error> {
 
 /// A length of something that is there.
 pub(super) fn above_zero(text: &str) -> Result<Nm, String> {
-    length_if(text, |length| length > Nm::ZERO, "above zero")
+    length_if(text, |length| length > Nm::ZERO, "expected a length above zero")
 }
 
 /// A length that may be zero.
 pub(super) fn not_below_zero(text: &str) -> Result<Nm, String> {
-    length_if(text, |length| length >= Nm::ZERO, "of zero or more")
+    length_if(text, |length| length >= Nm::ZERO, "expected a length of zero or more")
 }
 
-/// A length that fits, which is so.
-fn length_if(text: &str, fits: fn(Nm) -> bool, so: &str) -> Result<Nm, String> {
+/// A length that fits what is `expected`.
+pub(super) fn length_if(text: &str, fits: impl Fn(Nm) -> bool, expected: &str) -> Result<Nm, String> {
     let length = text.parse::<Nm>().map_err(|error| error.to_string())?;
-    if fits(length) { Ok(length) } else { Err(format!("expected a length {so}")) }
+    if fits(length) { Ok(length) } else { Err(expected.to_owned()) }
 }

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use clap::{Args, ValueEnum};
 use voromill::board::{Side, Source, Warning};
-use voromill::geometry::{Nm, ParseLengthError, Point, Rect, Vector};
+use voromill::geometry::{Nm, Point, Rect, Vector};
 use voromill::grid::Grid;
 use voromill::import::drawing::{self, Unit};
 use voromill::import::picture::Pixels;
@@ -18,6 +18,7 @@ use voromill::report;
 use voromill::report::document::WarningEntry;
 use voromill::report::thinning::Thinning;
 
+use super::given::length_if;
 use super::{Failure, Shared};
 
 /// What to read.
@@ -154,8 +155,7 @@ fn width(text: &str) -> Result<Length, String> {
 }
 
 fn length_in(text: &str, range: RangeInclusive<Nm>, expected: &str) -> Result<Length, String> {
-    let length: Length = text.parse().map_err(|error: ParseLengthError| error.to_string())?;
-    range.contains(&length.nm()).then_some(length).ok_or_else(|| expected.to_owned())
+    length_if(text, |length| range.contains(&length), expected).map(Length)
 }
 
 fn area(text: &str) -> Result<f64, String> {

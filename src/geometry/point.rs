@@ -243,6 +243,12 @@ impl Rect {
         self.min.x <= p.x && p.x <= self.max.x && self.min.y <= p.y && p.y <= self.max.y
     }
 
+    /// Whether all of `other` lies inside or on an edge.
+    #[must_use]
+    pub fn encloses(self, other: Self) -> bool {
+        self.contains(other.min) && self.contains(other.max)
+    }
+
     /// Whether the two share at least a point.
     #[must_use]
     pub fn touches(self, other: Self) -> bool {

@@ -108,8 +108,7 @@ impl Polygon {
     /// polygon is not simple.
     #[must_use]
     pub fn clipped(&self, rect: Rect) -> Option<Self> {
-        let within = |bounds: Rect| rect.contains(bounds.min()) && rect.contains(bounds.max());
-        if within(self.bounds()) {
+        if rect.encloses(self.bounds()) {
             return Some(self.clone());
         }
         let clipped = Self::new(self.contours.iter().map(|ring| clip(ring.clone(), rect)).collect())?;

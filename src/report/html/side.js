@@ -20,7 +20,8 @@ class BoardSide {
     this.heat = heatPaths(this.edges, clearance => this.room(clearance));
   }
 
-  // How much of the clearance at a place a cut leaves: below zero where it removes copper. Of several tools the widest that fits cuts there, and one that may rise is no wider than the gap.
+  // How much of the clearance at a place a cut leaves: below zero where it removes copper. Of
+  // several tools the widest that fits cuts there, and one that may rise is no wider than the gap.
   room(clearance) {
     for (const [least, most] of this.kerfs) {
       if (2 * clearance >= most) return clearance - most / 2;

@@ -245,12 +245,16 @@ impl Machine {
         let meanings = || block.orders.iter().map(|order| meaning(order.letter, order.key));
         // Of motions, `orders` has refused two that differ.
         let cancels = |meaning: &Meaning| *meaning == Meaning::Motion(Mode::None);
-        let mut groups: Vec<u8> =
-            meanings().filter(|meaning| !cancels(meaning)).filter_map(Meaning::group).collect();
-        groups.sort_unstable();
+        // Most lines have one code, and nothing to be beside it.
+        let is_twice = block.orders.len() > 1 && {
+            let groups = meanings().filter(|meaning| !cancels(meaning)).filter_map(Meaning::group);
+            let mut groups: Vec<u8> = groups.collect();
+            groups.sort_unstable();
+            groups.windows(2).any(|pair| pair[0] == pair[1])
+        };
         // A motion wants the axis words that G28 and its kind take.
         let both = orders.takes_axes && orders.motion.is_some_and(|mode| mode != Mode::None);
-        if both && orders.ask != Some(Ask::End) || groups.windows(2).any(|pair| pair[0] == pair[1]) {
+        if both && orders.ask != Some(Ask::End) || is_twice {
             self.listing.is_odd(Odd::Contrary, line);
         }
         if meanings().any(|meaning| cancels(&meaning)) && orders.motion != Some(Mode::None) {
@@ -266,13 +270,16 @@ impl Machine {
             'I' | 'J' | 'K' | 'R' => matches!(motion, Mode::Arc(_)),
             _ => false,
         };
-        let unasked = |letter: char| block.get(letter).is_some() && !asks(letter);
-        if are_known && is_known && ("DHIJKLPQR".chars().any(unasked) || !block.others.is_empty()) {
-            self.listing.is_odd(Odd::Unasked, line);
-        }
-        let turns = |letter: char| letter == 'P' && matches!(motion, Mode::Arc(_));
-        if are_known && is_known && "HIJKLPQR".chars().any(|letter| unasked(letter) && !turns(letter)) {
-            self.listing.is_odd(Odd::Idle, line);
+        let unasked = |letter: &char| block.get(*letter).is_some() && !asks(*letter);
+        let mut unasked = "DHIJKLPQR".chars().filter(unasked).peekable();
+        if are_known && is_known {
+            if unasked.peek().is_some() || !block.others.is_empty() {
+                self.listing.is_odd(Odd::Unasked, line);
+            }
+            let turns = |letter: char| letter == 'P' && matches!(motion, Mode::Arc(_));
+            if unasked.any(|letter| letter != 'D' && !turns(letter)) {
+                self.listing.is_odd(Odd::Idle, line);
+            }
         }
         if orders.dwell && block.get('P').is_none() {
             self.listing.is_odd(Odd::Untimed, line);
